@@ -124,6 +124,10 @@ MATERIALS = {
     "nodes in a row": Limit("More than 1000 nodes in a row", "the value before them is 0"),
     "repeat": Limit("Repeat zones of more than 512 turns, or whose number varies", "512 turns; none"),
     "many closures": Limit("More than 64 shaders in one material", "the rest is left out"),
+    "mixed as light": _untold(
+        "Image textures of sRGB's bytes whose colour and alpha are both in use, or of 16 bits, between texels",
+        "mixed as light; Cycles mixes the codes",
+    ),
     "painted tiles": _untold("Image tiles that were painted and never saved", "not seen"),
     "node": Limit("Other nodes, named in the report", "their main input is passed on; without one, the value of their socket is used"),
 }

@@ -102,15 +102,15 @@ def pixels_of_frame(image, number):
         bpy.data.images.remove(copy)
 
 
-def pixels_of_file(image, path):
-    """As `pixels_of`, of one file of a sequence, read as the image says, and whether they are floats; None where it cannot be read."""
+def pixels_of_file(image, path, alpha_mode=None):
+    """As `pixels_of`, of one file, read as the image says or with another alpha mode, and whether they are floats; None where it cannot be read."""
     try:
         single = bpy.data.images.load(path, check_existing=False)
     except RuntimeError:
         return None, False
     try:
         single.colorspace_settings.name = image.colorspace_settings.name
-        single.alpha_mode = image.alpha_mode
+        single.alpha_mode = alpha_mode or image.alpha_mode
         return pixels_of(single) if single.size[0] else None, single.is_float
     finally:
         bpy.data.images.remove(single)

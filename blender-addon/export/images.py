@@ -12,6 +12,8 @@ from .image_files import bytes_of, frame_of, kind_of, kind_of_file, path_of, pix
 
 # File formats that keep colours multiplied by alpha.
 PREMULTIPLIED = {"OPEN_EXR", "OPEN_EXR_MULTILAYER"}
+# In the place of a file's format: pixels as Blender keeps them, of floats multiplied by alpha.
+MEMORY = "MEMORY"
 # Sources whose pixels are in memory only.
 IN_MEMORY = {"GENERATED", "VIEWER"}
 # Of bytes of sRGB, by what of them is multiplied by alpha.
@@ -66,7 +68,7 @@ class Images:
             name = f"{os.path.basename(image.filepath) or image.name}.png"
 
             def make():
-                return {}, {"data": (name, png_of(bytes_of(pixels_of(image))))}
+                return {}, {"data": (name, png_of(bytes_of(_stored(image))))}
 
         elif product is None:
             return self.texture(image, user, report)
@@ -108,7 +110,8 @@ class Images:
 
     def stores_premultiplied(self, image):
         """Whether colours are stored multiplied by alpha."""
-        return self._kinds.get(image.session_uid, image.file_format) in PREMULTIPLIED
+        kind = self._kinds.get(image.session_uid, image.file_format)
+        return image.is_float if kind == MEMORY else kind in PREMULTIPLIED
 
     def linear(self, image, report):
         """Pixels as (height, width, 4), linear Rec.709, the bottom row first; None where there are none."""
@@ -120,7 +123,7 @@ class Images:
         elif image.source == "MOVIE" and user is not None and self.frame is not None:
             pixels, is_float = pixels_of_frame(image, frame_of(user, self.frame)), image.is_float
         else:
-            pixels, is_float = pixels_of(image), image.is_float
+            pixels, is_float = _stored(image), image.is_float
         return None if pixels is None else _linear(pixels, image, is_float, report)
 
     @staticmethod
@@ -140,7 +143,7 @@ class Images:
         if image.source in IN_MEMORY or image.source == "MOVIE" or image.is_dirty:
             return self._pixels(image, report)
         if image.packed_file is not None and image.source == "FILE":
-            return self._packed(image, report) if is_known else self._pixels(image, report)
+            return self._packed(image, report) if is_known and not self._is_remade(image) else self._pixels(image, report)
         path = path_of(image, user, self.frame)
         if not path or not os.path.isfile(path):
             report.add("Image", image.name, f"the file '{path or image.filepath}' was not found", severity="ERROR")
@@ -150,6 +153,11 @@ class Images:
             return self._pixels(image, report)
         self._kinds[image.session_uid] = kind
         return ("file", path, *file_version(path)), lambda: ({"source": {"File": path}}, {})
+
+    def _is_remade(self, image):
+        """Whether Blender changes what a packed file holds as it unpacks it: floats are multiplied by alpha, bytes divided by it."""
+        modes = ("STRAIGHT", "PREMUL") if image.is_float else ("PREMUL",)
+        return image.alpha_mode in modes and self.has_alpha(image)
 
     def _packed(self, image, report):
         packed = image.packed_file
@@ -187,8 +195,19 @@ class Images:
         if pixels is None:
             report.add("Image", image.name, "the image has no pixels", severity="ERROR")
             return None, None
+        self._kinds[image.session_uid] = MEMORY
         key = ("pixels", image.session_uid, hash(pixels.tobytes()))
         return key, lambda: ({}, {"pixels": np.ascontiguousarray(pixels[::-1])})
+
+
+def _stored(image):
+    """Pixels as Cycles takes them: bytes of a file that it opens itself are as the file has them, whatever it is said to hold."""
+    is_own = image.source == "FILE" and image.packed_file is None and not image.is_dirty
+    if is_own and not image.is_float and image.alpha_mode == "PREMUL":
+        pixels, _ = pixels_of_file(image, path_of(image), alpha_mode="STRAIGHT")
+        if pixels is not None:
+            return pixels
+    return pixels_of(image)
 
 
 def _linear(pixels, image, is_float, report):

@@ -3,9 +3,11 @@
 
 from math import pi
 
+import numpy as np
+
 from ..colour_management import gonio_name
 from .box_projection import box_projection
-from .image_filter import multiplied_encoded
+from .image_filter import clipped_alpha, decoded, divided, multiplied_encoded
 from .inputs import GENERATED, UV, direction, hit
 from .sockets import follow, input_socket
 from .translator import value_node
@@ -17,8 +19,6 @@ FILTERS = {"Closest": "Closest", "Linear": "Linear", "Cubic": "Cubic", "Smart": 
 FILTERS_OF_CODES = {"Closest": "Closest", "Linear": "LinearCodes", "Cubic": "CubicCodes", "Smart": "CubicCodes"}
 # What Blender shows for an image that is missing.
 MISSING = (1.0, 0.0, 1.0, 1.0)
-# Alpha below this is none.
-NO_ALPHA = 1e-8
 # Since this version Blender lays groups flat before Cycles sees them: a group's unlinked input is a constant, no longer nothing.
 LAID_FLAT = (5, 0, 0)
 # Textures that Blender leaves to Cycles even where all their inputs are constants.
@@ -65,18 +65,37 @@ def image_texture(t, node, context, output):
 
 def _texel(t, node, context, output, uv):
     wrap, image = WRAP[node.extension], node.image
-    if t.kind == "Material" and image is not None and node.interpolation != "Closest" and _is_encoded(image):
+    if output.identifier == "Alpha" and image is not None and image.alpha_mode == "NONE" and wrap == "Black":
+        return clipped_alpha(t, uv, image.size, node.interpolation == "Closest")
+    if t.kind == "Material" and image is not None and _is_encoded(image):
         is_product = _is_product(t, image) and node.outputs["Color"].is_linked
-        # Where both outputs are in use, one picture serves them: light, for that is what is divided by alpha again.
+        # Where both outputs are in use, one picture serves them: light, for that is what is divided by alpha again, from afar too.
         is_divided = is_product and node.outputs["Alpha"].is_linked
-        product = "light" if is_divided else "codes" if is_product else None
+        is_light = is_divided and node.interpolation != "Closest"
+        product = "light" if is_light else "codes" if is_product else None
         number = t.images.of_bytes(image, node.image_user, t.report, product)
         if number is not None:
-            texel = _look_up(t, node, number, uv, wrap, is_light=is_divided)
+            texel = _look_up(t, node, number, uv, wrap, is_light=is_light)
             if output.identifier == "Alpha" or not is_product:
                 return _with_alpha(t, node, output, texel)
-            return texel / texel.component(3).maximum(NO_ALPHA) if is_divided else texel
-    return _with_alpha(t, node, output, _sample(t, node, context, uv, wrap))
+            return divided(texel, is_encoded=not is_light) if is_divided else texel
+    number = None if image is None else t.images.texture(image, node.image_user, t.report)
+    if number is None:
+        return _missing(t, node, output, uv, wrap)
+    return _with_alpha(t, node, output, _look_up(t, node, number, uv, wrap))
+
+
+def _missing(t, node, output, uv, wrap):
+    """What is shown of no image, and of a lost one: a single texel, which can be clipped."""
+    texel = t.graph.colour(MISSING)
+    if node.image is not None and wrap == "Black":
+        number = t.images.baked(("lost",), "Lost", np.full((1, 1, 4), MISSING, np.float32))
+        texel = look_up(t, number, uv, (wrap, wrap), FILTERS[node.interpolation])
+        if output.identifier != "Alpha":
+            texel = divided(texel) if node.outputs["Alpha"].is_linked else texel
+            # Its bytes are mixed as they are.
+            return decoded(texel) if _is_srgb(node.image) else texel
+    return texel.component(3) if output.identifier == "Alpha" else texel
 
 
 def _sample(t, node, context, uv, wrap):
@@ -97,19 +116,23 @@ def look_up(t, number, uv, wrap, texture_filter="Linear", fallback=(0.0, 0.0, 0.
 
 def _is_encoded(image):
     """Whether an image's colours are bytes of sRGB, which Cycles decodes after it filtered them."""
+    return not image.is_float and _is_srgb(image)
+
+
+def _is_srgb(image):
     space = image.colorspace_settings
-    return not image.is_float and not space.is_data and gonio_name(space.name) == "srgb_texture"
+    return not space.is_data and gonio_name(space.name) == "srgb_texture"
+
+
+def _is_associated(t, image):
+    """Cycles' rule: colours are filtered as multiplied by alpha, and divided by it again where the Alpha output is in use too; data, and
+    what has no alpha, never."""
+    return image.alpha_mode not in ("NONE", "CHANNEL_PACKED") and not image.colorspace_settings.is_data and t.images.has_alpha(image)
 
 
 def _is_product(t, image):
-    """Cycles' rule: colours are filtered as multiplied by alpha, and divided by it again where the Alpha output is in use too; data, and
-    what has no alpha, never."""
-    return (
-        image.alpha_mode not in ("NONE", "CHANNEL_PACKED", "PREMUL")
-        and not image.colorspace_settings.is_data
-        and t.images.has_alpha(image)
-        and not t.images.stores_premultiplied(image)
-    )
+    """Whether colours are still to be multiplied."""
+    return _is_associated(t, image) and not t.images.stores_premultiplied(image)
 
 
 def _with_alpha(t, node, output, texel):
@@ -123,10 +146,9 @@ def _with_alpha(t, node, output, texel):
         if node.outputs["Alpha"].is_linked:
             # What hides where nothing is seen stays hidden.
             return texel * texel.component(3).sign()
-        return multiplied_encoded(t, texel, node.interpolation == "Closest") if _is_encoded(image) else texel * texel.component(3)
-    stores_product = image.alpha_mode == "PREMUL" or (image.alpha_mode == "STRAIGHT" and t.images.stores_premultiplied(image))
-    takes_apart = stores_product and not image.colorspace_settings.is_data and t.images.has_alpha(image)
-    return texel / texel.component(3) if takes_apart and node.outputs["Alpha"].is_linked else texel
+        is_byte = not image.is_float and node.interpolation == "Closest"
+        return multiplied_encoded(t, texel, is_byte) if _is_srgb(image) else texel * texel.component(3)
+    return divided(texel) if _is_associated(t, image) and node.outputs["Alpha"].is_linked else texel
 
 
 def _wrapped_around(t, value, projection):
