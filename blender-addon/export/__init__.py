@@ -62,8 +62,8 @@ class Exporter:
     def blur(self, engine, depsgraph):
         """Exports where things are while the shutter is open; what was exported before stays at the frame."""
         scene, self._camera_motion = depsgraph.scene, {}
-        self.scene.set(**motion.settings_of(scene))
-        shutter, ends = motion.shutter_of(scene), ()
+        self.scene.set(**motion.settings_of(depsgraph))
+        shutter, ends = motion.shutter_of(depsgraph), ()
         if shutter is None:
             # Nothing is blurred: motion vectors may be asked for.
             shutter, ends = motion.neighbours_of(depsgraph), motion.ENDS

@@ -67,11 +67,16 @@ class _Ignored:
         return kind is not None and issubclass(kind, Exception)
 
 
-def shutter_of(scene):
+def is_blurred(depsgraph):
+    """Whether the scene and its view layer ask for motion blur."""
+    return bool(depsgraph.scene.render.use_motion_blur and depsgraph.view_layer.use_motion_blur)
+
+
+def shutter_of(depsgraph):
     """The scene's shutter, None where nothing is blurred."""
-    render = scene.render
+    scene, render = depsgraph.scene, depsgraph.scene.render
     length = float(render.motion_blur_shutter)
-    if not render.use_motion_blur or length <= 0.0:
+    if not is_blurred(depsgraph) or length <= 0.0:
         return None
     cycles = getattr(scene, "cycles", None)
     position = getattr(render, "motion_blur_position", None) or getattr(cycles, "motion_blur_position", "CENTER")
@@ -81,18 +86,19 @@ def shutter_of(scene):
 
 def neighbours_of(depsgraph):
     """The frames before and after as if a shutter opened and closed there, where the pass of motion vectors is shown; else None."""
-    if not getattr(depsgraph.view_layer, "use_pass_vector", False) or depsgraph.scene.render.use_motion_blur:
+    if not getattr(depsgraph.view_layer, "use_pass_vector", False) or is_blurred(depsgraph):
         return None
     rests = depsgraph.scene.frame_current + depsgraph.scene.frame_subframe
     return Shutter(rests - 1.0, 2.0, rests)
 
 
-def settings_of(scene):
+def settings_of(depsgraph):
     """The shutter's settings for `gonio.Scene.set`."""
+    scene = depsgraph.scene
     cycles = getattr(scene, "cycles", None)
     rolls = getattr(cycles, "rolling_shutter_type", "NONE") != "NONE"
     return {
-        "motion_blur": bool(scene.render.use_motion_blur),
+        "motion_blur": is_blurred(depsgraph),
         "shutter_curve": _curve(scene.render),
         "row_exposure": float(cycles.rolling_shutter_duration) if rolls else 1.0,
     }

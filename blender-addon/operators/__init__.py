@@ -5,6 +5,7 @@ import bpy
 
 from .. import measuring
 from ..baking import wanted
+from . import presets
 from .bake_illuminance import GONIO_OT_bake_illuminance
 from .expose_for_daylight import GONIO_OT_expose_for_daylight
 from .from_cycles import GONIO_OT_settings_from_cycles
@@ -16,6 +17,7 @@ from .report import GONIO_OT_report_copy, GONIO_OT_report_jump
 from .standard_view import GONIO_OT_use_standard_view
 
 CLASSES = (
+    *presets.CLASSES,
     GONIO_OT_settings_from_cycles,
     GONIO_OT_use_standard_view,
     GONIO_OT_bake_illuminance,

@@ -4,6 +4,7 @@
 import bpy
 
 from ..baking import wanted
+from .polling import can_run, is_engine
 
 
 def context_has_bytes() -> bool:
@@ -24,7 +25,8 @@ class GONIO_OT_bake_illuminance(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return context.scene is not None and context.engine == "GONIO" and bpy.ops.object.bake.poll()
+        is_open = is_engine(context)[0] and bpy.ops.object.bake.poll()
+        return can_run(cls, is_engine(context), (is_open, "No mesh is active in Object Mode"))
 
     def execute(self, context):
         return self._bake("EXEC_DEFAULT")

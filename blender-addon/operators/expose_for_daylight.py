@@ -9,6 +9,7 @@ import gonio
 from ..daylight import of_world
 from ..export.settings import LEAST_EXPOSURE
 from ..units import LUMENS_PER_WATT
+from .polling import can_run
 
 # Illuminance [lx] of a moonless night: below it there is nothing to expose for.
 DARKEST = 1e-3
@@ -29,13 +30,10 @@ class GONIO_OT_expose_for_daylight(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        scene = context.scene
-        if scene is None or scene.world is None or not scene.world.gonio.use_daylight:
-            return False
-        if scene.gonio.tone_map != "NONE":
-            cls.poll_message_set("Tone mapping sees to the exposure")
-            return False
-        return True
+        world = None if context.scene is None else context.scene.world
+        has_daylight = world is not None and world.gonio.use_daylight
+        is_free = context.scene is None or context.scene.gonio.tone_map == "NONE"
+        return can_run(cls, (has_daylight, "The world's Daylight is off"), (is_free, "Tone mapping sees to the exposure"))
 
     def execute(self, context):
         try:

@@ -5,6 +5,7 @@ import bpy
 
 from .. import report
 from ..export import limits
+from .polling import can_run
 
 # Gonio's names of scene settings, with Cycles' where they differ.
 SCENE = {
@@ -78,7 +79,7 @@ class GONIO_OT_settings_from_cycles(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return context.scene is not None and hasattr(context.scene, "cycles")
+        return can_run(cls, (context.scene is not None and hasattr(context.scene, "cycles"), "The add-on Cycles is not enabled"))
 
     def execute(self, context):
         changed = take_over(context.scene, SCENE)

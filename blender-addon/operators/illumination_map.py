@@ -7,6 +7,7 @@ from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
 
 from .. import illumination, measuring, report
 from .beside import Beside
+from .polling import can_run, is_engine
 
 # What the engine and Blender's own meshes and images raise.
 FAILURES = (gonio.Error, ValueError, TypeError, RuntimeError, MemoryError)
@@ -77,12 +78,7 @@ class GONIO_OT_illumination_map(Beside, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        if context.scene.render.engine != "GONIO":
-            return False
-        if context.mode != "OBJECT":
-            cls.poll_message_set("Meshes take attributes in Object Mode alone")
-            return False
-        return True
+        return can_run(cls, is_engine(context), (context.mode == "OBJECT", "Meshes take attributes in Object Mode alone"))
 
     def invoke(self, context, event):
         """Asks for the options."""

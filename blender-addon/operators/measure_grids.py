@@ -8,6 +8,7 @@ from bpy.props import IntProperty
 
 from .. import measuring, report
 from .beside import Beside
+from .polling import can_run, is_engine
 
 # What the engine, the arrays of a mesh and Blender's own meshes and images raise.
 FAILURES = (gonio.Error, ValueError, TypeError, RuntimeError)
@@ -24,7 +25,8 @@ class GONIO_OT_measure_grids(Beside, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return context.scene.render.engine == "GONIO" and any(True for _ in _grids(context))
+        has_grids = context.scene is not None and any(True for _ in _grids(context))
+        return can_run(cls, is_engine(context), (has_grids, "No object of the scene is a grid: Object Properties, Measuring Grid"))
 
     def execute(self, context):
         try:

@@ -12,6 +12,7 @@ from mathutils import Matrix
 
 from .. import goniophotometer, measuring, report
 from .beside import Beside
+from .polling import can_run, is_engine
 
 # What the engine, its files and Blender raise.
 FAILURES = (gonio.Error, OSError, ValueError, TypeError, RuntimeError)
@@ -104,7 +105,7 @@ class GONIO_OT_measure_luminaire(Beside, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return context.scene.render.engine == "GONIO"
+        return can_run(cls, is_engine(context))
 
     def invoke(self, context, event):
         """Asks for the file and the options."""

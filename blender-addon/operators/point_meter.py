@@ -7,6 +7,7 @@ from bpy.props import IntProperty
 from bpy_extras.view3d_utils import region_2d_to_origin_3d, region_2d_to_vector_3d
 
 from .. import measuring
+from .polling import can_run
 
 
 class GONIO_OT_point_meter(bpy.types.Operator):
@@ -21,7 +22,7 @@ class GONIO_OT_point_meter(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return context.area is not None and context.area.type == "VIEW_3D"
+        return can_run(cls, (context.area is not None and context.area.type == "VIEW_3D", "The mouse is not over a 3D viewport"))
 
     def invoke(self, context, event):
         try:

@@ -3,6 +3,8 @@
 
 import bpy
 
+from .polling import can_run
+
 # What Color Management must say.
 STANDARD = {
     "view_transform": "Standard",
@@ -35,7 +37,7 @@ class GONIO_OT_use_standard_view(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return context.scene is not None
+        return can_run(cls, (context.scene is not None, "There is no scene"))
 
     def execute(self, context):
         show_as_is(context.scene.view_settings)

@@ -18,15 +18,19 @@ from . import (
     performance,
     photometry,
     polar_picture,
+    presets,
     report,
     sampling,
     simplify,
     stock,
+    subdivision,
     world,
 )
 
 PANELS = (
+    *presets.PANELS,
     *sampling.PANELS,
+    *subdivision.PANELS[:1],
     *light_paths.PANELS,
     *curves.PANELS,
     *motion_blur.PANELS[:2],
@@ -44,12 +48,14 @@ PANELS = (
     *material.PANELS,
     *object_visibility.PANELS,
     *motion_blur.PANELS[2:],
+    *subdivision.PANELS[1:],
     *measure.PANELS,
 )
 
 
 def register() -> None:
     stock.register()
+    presets.register()
     polar_picture.register()
     for panel in PANELS:
         bpy.utils.register_class(panel)
@@ -61,4 +67,5 @@ def unregister() -> None:
     for panel in reversed(PANELS):
         bpy.utils.unregister_class(panel)
     polar_picture.unregister()
+    presets.unregister()
     stock.unregister()

@@ -53,6 +53,7 @@ def _draw_colour(layout, light) -> None:
 
 def _draw_shape(column, light) -> None:
     if light.type in ("POINT", "SPOT"):
+        column.prop(light, "use_soft_falloff")
         column.prop(light, "shadow_soft_size", text="Radius")
     elif light.type == "SUN":
         column.prop(light, "angle")

@@ -32,8 +32,9 @@ class GONIO_OBJECT_PT_lightgroup(GonioPanel, Panel):
 
 
 class GONIO_WORLD_PT_lightgroup(GonioPanel, Panel):
-    bl_label = "Settings"
+    bl_label = "Light Group"
     bl_context = "world"
+    bl_parent_id = "GONIO_WORLD_PT_settings"
     bl_options = {"DEFAULT_CLOSED"}
 
     @classmethod

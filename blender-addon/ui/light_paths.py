@@ -3,12 +3,16 @@
 
 from bpy.types import Panel
 
+from . import presets
 from .base import RenderPanel
 
 
 class GONIO_RENDER_PT_light_paths(RenderPanel, Panel):
     bl_label = "Light Paths"
     bl_options = {"DEFAULT_CLOSED"}
+
+    def draw_header_preset(self, context):
+        presets.GONIO_PT_light_paths_presets.draw_panel_header(self.layout)
 
 
 class GONIO_RENDER_PT_light_paths_max_bounces(RenderPanel, Panel):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Passes of a view layer."""
 
+import bpy
 from bpy.types import Panel
 
 from .base import GonioPanel
@@ -30,6 +31,29 @@ class GONIO_VIEWLAYER_PT_filter(GonioPanel, Panel):
         column = layout.column(heading="Include")
         column.prop(layer, "use_sky", text="Environment")
         column.prop(layer, "use_solid", text="Surfaces")
+        column.prop(layer, "use_strand", text="Hair")
+        blurred = column.row()
+        blurred.active = layer.id_data.render.use_motion_blur
+        blurred.prop(layer, "use_motion_blur", text="Motion Blur")
+
+
+class GONIO_VIEWLAYER_PT_override(GonioPanel, Panel):
+    bl_label = "Override"
+    bl_context = "view_layer"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        # Blender has such a panel itself since 5.0.
+        return super().poll(context) and not hasattr(bpy.types, "VIEWLAYER_PT_override")
+
+    def draw(self, context):
+        layout, layer = self.layout, context.view_layer
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        layout.prop(layer, "material_override")
+        layout.prop(layer, "world_override")
+        layout.prop(layer, "samples")
 
 
 class GONIO_VIEWLAYER_PT_passes(GonioPanel, Panel):
@@ -129,8 +153,8 @@ class GONIO_VIEWLAYER_PT_passes_aov(LayerPanel, Panel):
 
 
 def is_blurred(layer) -> bool:
-    """Whether the scene of a view layer blurs what moves."""
-    return layer.id_data.render.use_motion_blur
+    """Whether a view layer blurs what moves."""
+    return layer.id_data.render.use_motion_blur and layer.use_motion_blur
 
 
 def changes_colors(view) -> bool:
@@ -140,6 +164,7 @@ def changes_colors(view) -> bool:
 
 PANELS = (
     GONIO_VIEWLAYER_PT_filter,
+    GONIO_VIEWLAYER_PT_override,
     GONIO_VIEWLAYER_PT_passes,
     GONIO_VIEWLAYER_PT_passes_data,
     GONIO_VIEWLAYER_PT_passes_light,

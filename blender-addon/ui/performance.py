@@ -1,14 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Performance."""
 
+from bl_ui.properties_render import CompositorDenoisePerformanceButtonsPanel, CompositorPerformanceButtonsPanel
 from bpy.types import Panel
 
-from .base import RenderPanel
+from . import presets
+from .base import GonioPanel, RenderPanel
 
 
 class GONIO_RENDER_PT_performance(RenderPanel, Panel):
     bl_label = "Performance"
     bl_options = {"DEFAULT_CLOSED"}
+
+    def draw_header_preset(self, context):
+        presets.GONIO_PT_performance_presets.draw_panel_header(self.layout)
 
 
 class GONIO_RENDER_PT_performance_threads(RenderPanel, Panel):
@@ -51,10 +56,24 @@ class GONIO_RENDER_PT_performance_viewport(RenderPanel, Panel):
         layout.prop(scene.gonio, "preview_navigation_resolution", text="While Navigating")
 
 
+class GONIO_RENDER_PT_performance_compositor(GonioPanel, CompositorPerformanceButtonsPanel, Panel):
+    bl_context = "render"
+    bl_parent_id = "GONIO_RENDER_PT_performance"
+    bl_options = {"DEFAULT_CLOSED"}
+
+
+class GONIO_RENDER_PT_performance_compositor_denoise(GonioPanel, CompositorDenoisePerformanceButtonsPanel, Panel):
+    bl_context = "render"
+    bl_parent_id = "GONIO_RENDER_PT_performance_compositor"
+    bl_options = {"DEFAULT_CLOSED"}
+
+
 PANELS = (
     GONIO_RENDER_PT_performance,
     GONIO_RENDER_PT_performance_threads,
     GONIO_RENDER_PT_performance_textures,
     GONIO_RENDER_PT_performance_final,
     GONIO_RENDER_PT_performance_viewport,
+    GONIO_RENDER_PT_performance_compositor,
+    GONIO_RENDER_PT_performance_compositor_denoise,
 )

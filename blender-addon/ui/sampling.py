@@ -3,6 +3,7 @@
 
 from bpy.types import Panel
 
+from . import presets
 from .base import RenderPanel
 
 
@@ -17,6 +18,9 @@ class GONIO_RENDER_PT_sampling(RenderPanel, Panel):
 class GONIO_RENDER_PT_sampling_viewport(RenderPanel, Panel):
     bl_label = "Viewport"
     bl_parent_id = "GONIO_RENDER_PT_sampling"
+
+    def draw_header_preset(self, context):
+        presets.GONIO_PT_viewport_sampling_presets.draw_panel_header(self.layout)
 
     def draw_settings(self, layout, scene):
         settings = scene.gonio
@@ -36,6 +40,9 @@ class GONIO_RENDER_PT_sampling_viewport(RenderPanel, Panel):
 class GONIO_RENDER_PT_sampling_render(RenderPanel, Panel):
     bl_label = "Render"
     bl_parent_id = "GONIO_RENDER_PT_sampling"
+
+    def draw_header_preset(self, context):
+        presets.GONIO_PT_sampling_presets.draw_panel_header(self.layout)
 
     def draw_settings(self, layout, scene):
         settings = scene.gonio

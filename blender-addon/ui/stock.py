@@ -35,6 +35,7 @@ INCLUDED = {
     "EEVEE_MATERIAL_PT_context_material",
     "MATERIAL_PT_preview",
     "MATERIAL_PT_custom_props",
+    "OBJECT_PT_shadow_terminator",
     "OBJECT_PT_visibility",
     "VIEWLAYER_PT_override",
     "WORLD_PT_context_world",

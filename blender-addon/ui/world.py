@@ -128,6 +128,34 @@ class GONIO_WORLD_PT_mist(WorldPanel, Panel):
         self.layout.prop(mist, "falloff")
 
 
+class GONIO_WORLD_PT_ray_visibility(WorldPanel, Panel):
+    bl_label = "Ray Visibility"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        # Cycles keeps these switches.
+        return super().poll(context) and hasattr(context.world, "cycles_visibility")
+
+    def draw(self, context):
+        self.layout.use_property_split = True
+        self.layout.use_property_decorate = False
+        seen = context.world.cycles_visibility
+        column = self.layout.column(heading="Seen by")
+        for ray in ("camera", "diffuse", "glossy", "transmission"):
+            column.prop(seen, ray)
+
+
+class GONIO_WORLD_PT_settings(WorldPanel, Panel):
+    bl_label = "Settings"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        self.layout.use_property_split = True
+        # How far ambient occlusion looks, in its pass, in bakes, and in nodes of the distance 0.
+        self.layout.prop(context.world.light_settings, "distance", text="Occlusion Distance")
+
+
 PANELS = (
     GONIO_WORLD_PT_preview,
     GONIO_WORLD_PT_surface,
@@ -135,4 +163,6 @@ PANELS = (
     GONIO_WORLD_PT_daylight,
     GONIO_WORLD_PT_daylight_sky,
     GONIO_WORLD_PT_mist,
+    GONIO_WORLD_PT_ray_visibility,
+    GONIO_WORLD_PT_settings,
 )

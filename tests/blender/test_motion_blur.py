@@ -222,3 +222,17 @@ def test_the_engine_moves_the_frame_and_puts_it_back(tmp_path):
     assert scene.frame_current == 2
     assert not [line.text for line in part("report").latest().diagnostics]
     assert bpy.data.objects["Cube"].matrix_world.translation.x == pytest.approx(-0.2, abs=1e-3)
+
+
+@pytest.mark.blender
+def test_view_layers_without_motion_blur_stand_still():
+    import bpy
+
+    scene = animated(samples=64)
+    scene.render.use_motion_blur, scene.render.motion_blur_shutter = True, 1.0
+    scene.frame_set(2)
+    blurred = picture(scene)
+    bpy.context.view_layer.use_motion_blur = False
+    still = picture(scene)
+    scene.render.use_motion_blur, bpy.context.view_layer.use_motion_blur = False, True
+    assert np.array_equal(still, picture(scene)) and np.abs(still - blurred).max() > 0.1 * still.max()

@@ -1,0 +1,12 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+import bpy
+
+gonio = bpy.context.scene.gonio
+
+gonio.max_bounces = 8
+gonio.diffuse_bounces = 0
+gonio.glossy_bounces = 1
+gonio.transmission_bounces = 2
+gonio.transparent_max_bounces = 8
+gonio.caustics_reflective = False
+gonio.caustics_refractive = False

@@ -1,0 +1,9 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+import bpy
+
+gonio = bpy.context.scene.gonio
+render = bpy.context.scene.render
+
+render.threads_mode = 'AUTO'
+render.use_persistent_data = True
+gonio.texture_memory = 0
