@@ -189,10 +189,14 @@ impl LightTable {
     }
     /// The middle of a light that has a place and sends light.
     pub fn centre(&self, light: u32) -> Option<[f32; 3]> {
+        self.ball(light).map(|(centre, _)| centre)
+    }
+    /// A ball around a light that has a place and sends light: its middle, and its radius in metres.
+    pub fn ball(&self, light: u32) -> Option<([f32; 3], f32)> {
         let row = self.rows.as_chunks::<ROW>().0.get(light as usize)?;
         let flags = row[field::FLAGS].to_bits();
-        let [x, y, z] = [0, 1, 2].map(|axis| row[field::BOUND_CENTRE + axis]);
-        (flags & (flag::LIT | flag::INFINITE) == flag::LIT).then_some([x, y, z])
+        let centre = [0, 1, 2].map(|axis| row[field::BOUND_CENTRE + axis]);
+        (flags & (flag::LIT | flag::INFINITE) == flag::LIT).then_some((centre, row[field::BOUND_RADIUS]))
     }
     /// Whether a light emits from all around.
     pub fn is_dome(&self, light: u32) -> bool {

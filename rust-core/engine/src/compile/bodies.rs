@@ -1,92 +1,55 @@
-//! What absorbs where cameras and sensors stand: the closed meshes that hold a place.
-//!
-//! A ray from the place leaves each mesh that holds it once more than it enters it. Cycles fills its stack of volumes in the same way.
+//! Placed meshes that absorb inside, and which of them lamps may stand in.
 
 use super::bounds::Bounds;
 use crate::{
-    accel::{Hits, RayBatch},
-    scene::Scene,
-    transport::{MaterialTable, Tables},
+    light::LightTable,
+    scene::{Material, Scene},
+    transport::{Bodies, Body},
 };
-use gonio_simd::{Execution, Lanes, One, Vec3};
 
-/// Along no axis and no diagonal, so that it seldom meets an edge.
-const DIRECTION: [f32; 3] = [0.233_25, 0.317_56, 0.919_11];
-/// Most surfaces of a mesh that are counted.
-const MOST: usize = 4096;
+/// More pairs of bodies and lights are not tested: lamps may then stand in any body.
+const MOST_PAIRS: usize = 1 << 24;
 
-/// Placed meshes that are full of what absorbs.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Bodies(Vec<Body>);
-
-#[derive(Clone, Debug)]
-struct Body {
-    instance: u32,
-    bounds: Bounds,
+/// Those of a scene whose geometry has bounds; `rows` are the sets that instances came from, their numbers there, and their geometry.
+pub(super) fn of(
+    scene: &Scene,
+    mesh_bounds: &[Bounds],
+    rows: impl Iterator<Item = (u32, u32, u32)>,
+    lights: &LightTable,
+    origin: [f64; 3],
+) -> Bodies {
+    let filled: Vec<bool> = scene.materials.iter().map(absorbs).collect();
+    if !filled.contains(&true) {
+        return Bodies::default();
+    }
+    let is_filled = |id: usize| filled.get(id) == Some(&true);
+    let holds: Vec<bool> = scene.instances.iter().map(|set| set.materials.iter().any(|id| is_filled(id.index()))).collect();
+    // Nothing stands in a hair.
+    let strands = scene.meshes.len()..scene.meshes.len() + scene.curves.len();
+    let body = |(instance, (set, number, mesh)): (usize, (u32, u32, u32))| {
+        let is_strand = strands.contains(&(mesh as usize));
+        let transform = scene.instances.get(set as usize)?.transforms.get(number as usize)?;
+        let holds = !is_strand && holds.get(set as usize) == Some(&true);
+        let bounds = holds.then(|| mesh_bounds.get(mesh as usize))??.transformed(transform);
+        let corner = |place: [f64; 3]| [0, 1, 2].map(|axis| (place[axis] - origin[axis]) as f32);
+        Some(Body { instance: instance as u32, bounds: [corner(bounds.min), corner(bounds.max)] })
+    };
+    let all: Vec<Body> = rows.enumerate().filter_map(body).collect();
+    let balls: Vec<([f32; 3], f32)> = (0..lights.len() as u32).filter_map(|light| lights.ball(light)).collect();
+    let around_lights = match all.len().saturating_mul(balls.len()) <= MOST_PAIRS {
+        true => all.iter().filter(|body| balls.iter().any(|ball| meets(body, ball))).copied().collect(),
+        false => all.clone(),
+    };
+    Bodies { all, around_lights }
 }
 
-impl Bodies {
-    /// Those of a scene whose meshes have bounds; `rows` are the sets that instances came from, their numbers there, and their meshes.
-    pub(super) fn of(
-        scene: &Scene,
-        mesh_bounds: &[Bounds],
-        materials: &MaterialTable,
-        rows: impl Iterator<Item = (u32, u32, u32)>,
-    ) -> Self {
-        let filled: Vec<bool> = scene.materials.iter().map(|material| material.absorption.iter().any(|x| *x > 0.0)).collect();
-        if !filled.contains(&true) {
-            return Self::default();
-        }
-        let is_filled = |id: usize| filled.get(id) == Some(&true) && materials.interior(materials.number(id)).is_some();
-        let holds: Vec<bool> = scene.instances.iter().map(|set| set.materials.iter().any(|id| is_filled(id.index()))).collect();
-        let body = |(instance, (set, number, mesh)): (usize, (u32, u32, u32))| {
-            let is_mesh = (mesh as usize) < scene.meshes.len() && holds.get(set as usize) == Some(&true);
-            let transform = scene.instances.get(set as usize)?.transforms.get(number as usize)?;
-            is_mesh.then(|| Body { instance: instance as u32, bounds: mesh_bounds[mesh as usize].transformed(transform) })
-        };
-        Self(rows.enumerate().filter_map(body).collect())
-    }
-
-    /// Absorption a metre at a place, world space; where things stand at the middle of the shutter.
-    pub(crate) fn absorption(&self, tables: &Tables, place: [f64; 3]) -> [f32; 3] {
-        let mut sum = [0.0; 3];
-        for body in self.0.iter().filter(|body| (0..3).all(|i| (body.bounds.min[i]..=body.bounds.max[i]).contains(&place[i]))) {
-            let origin = [0, 1, 2].map(|i| (place[i] - tables.origin[i]) as f32);
-            let own = around(tables, body.instance, origin);
-            (0..3).for_each(|i| sum[i] += own[i]);
-        }
-        // Open meshes may be left without having been entered, or the other way round.
-        sum.map(|x: f64| x.max(0.0) as f32)
-    }
+/// Whether a material may absorb what goes through the meshes that it covers.
+fn absorbs(material: &Material) -> bool {
+    material.absorption.iter().any(|x| *x > 0.0) || material.closures.iter().any(|closure| closure.input("transmission_depth").is_some())
 }
 
-/// What an instance absorbs at a place, rebased: what fills it where a ray leaves it, less where it enters.
-fn around(tables: &Tables, instance: u32, origin: [f32; 3]) -> [f64; 3] {
-    let mut sum = [0.0; 3];
-    let mut hits = Hits::default();
-    let mut from = 0.0;
-    for _ in 0..MOST {
-        let rays = RayBatch {
-            origin: [&origin[..1], &origin[1..2], &origin[2..]],
-            direction: [&DIRECTION[..1], &DIRECTION[1..2], &DIRECTION[2..]],
-            t_min: &[from],
-            t_max: &[f32::INFINITY],
-            mask: &[u8::MAX],
-            time: &[],
-            passed: &[],
-        };
-        tables.bvh.first_hit_within(Execution::Scalar, &rays, &[instance], &mut hits);
-        let (t, primitive) = (hits.t[0], hits.primitive[0]);
-        if !t.is_finite() {
-            break;
-        }
-        from = t.next_up();
-        if let Some(interior) = tables.materials.interior(tables.geometry.material(instance, primitive)) {
-            let hit = tables.geometry.hit_lanes(One, One.u(instance), One.u(primitive), One.f(hits.u[0]), One.f(hits.v[0]));
-            let normal = tables.geometry.surface_point(One, &hit).geometric_normal;
-            let sign = if normal.dot(Vec3::splat(One, DIRECTION)).gt(0.0).any() { 1.0 } else { -1.0 };
-            (0..3).for_each(|i| sum[i] += sign * f64::from(interior[i]));
-        }
-    }
-    sum
+/// Whether a body's bounds meet the box about a ball.
+fn meets(body: &Body, (centre, radius): &([f32; 3], f32)) -> bool {
+    let [min, max] = body.bounds;
+    (0..3).all(|axis| centre[axis] + radius >= min[axis] && centre[axis] - radius <= max[axis])
 }

@@ -7,7 +7,7 @@ use crate::{
     geometry::GeometryTable,
     light::{LightTable, LightTexture},
     texture::TextureTable,
-    transport::{GlowPoint, GlowRoom, LightGroups, Links, MaterialTable, MatteNames, Tables, emitted},
+    transport::{Bodies, GlowPoint, GlowRoom, LightGroups, Links, MaterialTable, MatteNames, Tables, emitted},
 };
 use gonio_simd::Execution;
 use rayon::prelude::*;
@@ -58,6 +58,7 @@ impl<'a> Probe<'a> {
             any_transparent: false,
             any_absorbing: false,
             any_volume: false,
+            bodies: Bodies::default(),
             origin,
         };
         Ok(Self { tables, cancel })

@@ -48,7 +48,6 @@ mod whitted;
 
 use numbers::geometry_number;
 
-pub(crate) use bodies::Bodies;
 pub use bounds::Bounds;
 pub(crate) use casters::Casters;
 pub(crate) use dice::is_diced;
@@ -88,8 +87,6 @@ pub struct CompiledScene {
     pub(crate) manifests: Arc<Manifests>,
     /// What casts caustics.
     pub(crate) casters: Casters,
-    /// What absorbs where cameras and sensors stand.
-    pub(crate) bodies: Bodies,
     /// What renders leave for the next.
     pub(crate) workspaces: Arc<Workspaces>,
     trees: Vec<trees::KeptTree>,
@@ -201,7 +198,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     light_alone::report(scene, &materials, &lights.table, &mut diagnostics);
     let casters = Casters::of(scene, &mesh_bounds, &materials, origin);
     let rows = geometry.table.instances.iter().take(geometry.first_light as usize).map(|row| (row.set, row.number, row.mesh));
-    let bodies = Bodies::of(scene, &mesh_bounds, &materials, rows);
+    let bodies = bodies::of(scene, &mesh_bounds, rows, &lights.table, origin);
     let any_transparent = materials.surfaces.iter().any(|surface| surface.lets_light_pass);
     let object_lights = catchers::object_lights(scene, &geometry.table, &lights.triangle_lights, lights.table.len());
     let tables = Tables {
@@ -222,6 +219,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
         any_transparent,
         any_absorbing,
         any_volume,
+        bodies,
         origin,
     };
     let (cameras, manifests) = (scene.cameras.clone(), Arc::new(Manifests::of(scene)));
@@ -233,7 +231,6 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
         statistics,
         manifests,
         casters,
-        bodies,
         workspaces: previous.map(|p| p.workspaces.clone()).unwrap_or_default(),
         trees,
         smooth,

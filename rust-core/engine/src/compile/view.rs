@@ -7,7 +7,7 @@ use crate::{
     error::{Error, Result},
     film::{Film, Placement, tabulate},
     scene::{Antialiasing, Aov, Background, Camera, Crop, Integrator, Projection, Settings},
-    transport::{Distance, Estimator, Limits, Mist, Passes, PathFilter, Transport},
+    transport::{Distance, Estimator, Limits, Mist, Passes, PathFilter, Transport, medium_at},
 };
 use gonio_simd::Execution;
 
@@ -50,7 +50,7 @@ impl View {
         }
         let table = camera_table(camera, settings, scene.tables.origin)?;
         let motion = motion::of_camera(camera, settings, scene.tables.origin);
-        let medium = scene.bodies.absorption(&scene.tables, camera.transform.columns[3]);
+        let medium = medium_at(&scene.tables, camera.transform.columns[3]);
         let table = CameraTable { motion, medium, ..table };
         let shutter = motion::shutter(&scene.tables.bvh, table.motion.as_deref(), settings);
         let mut transport = Transport { shutter, ..transport(scene, settings, execution, table.position, table.axes[2].map(|x| -x)) };

@@ -11,7 +11,7 @@ use crate::{
     film::Image,
     render::{Progress, Render},
     scene::{Aov, Background, Measurand, Meter, Settings},
-    transport::{Sensor, SensorTable},
+    transport::{Sensor, SensorTable, medium_at},
 };
 use gonio_simd::Execution;
 use std::{f64::consts::PI, sync::Arc, time::Duration};
@@ -78,7 +78,7 @@ impl Probe {
             turn: self.turn as f32,
             looks: self.looks,
             // On the side that is measured, for sensors lie on surfaces.
-            medium: scene.bodies.absorption(&scene.tables, add(self.position, scaled(self.normal, BEFORE * error))),
+            medium: medium_at(&scene.tables, add(self.position, scaled(self.normal, BEFORE * error))),
         }
     }
 }

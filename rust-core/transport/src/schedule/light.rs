@@ -10,8 +10,10 @@ use crate::stage::glow::shine_starts;
 use crate::stage::intersect::{escape, find_surfaces};
 use crate::stage::shadow::occlude;
 use crate::stage::sort::{list_materials, sort_by_material};
+use crate::stage::start_media::start_media;
 use crate::stage::subsurface::{WalkContext, walk};
 use crate::state::light_paths::{Arrivals, Escapes};
+use crate::state::paths::Paths;
 use crate::state::sample::SampleContext;
 use crate::state::workspace::Workspace;
 use crate::statistics::Stage;
@@ -79,6 +81,7 @@ impl LightTracer<'_> {
             let room = ws.queues.light_paths.glow.get_or_insert_default();
             shine_starts(self.tables, self.transport.execution, &ws.paths, &mut ws.queues.light_paths.starts, room);
         }
+        self.find_media(ws);
         ws.paths.set_masks();
         let mut flux = BatchFlux { emitted: self.under_way(ws), ..BatchFlux::default() };
         ws.statistics.spent(Stage::Generate, time);
@@ -95,6 +98,21 @@ impl LightTracer<'_> {
         }
         flux.cut_off = self.under_way(ws);
         flux
+    }
+
+    /// What absorbs where the paths start.
+    fn find_media(&self, ws: &mut Workspace) {
+        let bodies = match self.emission {
+            Emission::Lights(_) => &self.tables.bodies.around_lights,
+            Emission::Rays(_) => &self.tables.bodies.all,
+        };
+        if bodies.is_empty() {
+            return;
+        }
+        ws.paths.set_times(&ws.times);
+        let room = ws.queues.light_paths.media.get_or_insert_default();
+        let Paths { count, rays, medium, .. } = &mut ws.paths;
+        start_media(self.tables, self.transport.execution, bodies, rays, *count, medium, room);
     }
 
     fn follow_bounce(

@@ -2,6 +2,7 @@
 
 use crate::graph::CHUNK;
 use crate::kernels;
+use crate::stage::sort::for_materials;
 use crate::stage::surface::{ChunkRays, ChunkSource};
 use crate::state::chunk::ChunkColumns;
 use crate::state::columns::load3;
@@ -64,15 +65,6 @@ fn find_ends<L: Lanes>(l: L, tables: &Tables, rays: &Rays, lights: &[u32], block
             glow.ends.push(TransparentHit { ray: (at + lane) as u32, instance, primitive, u, v, t });
             glow.inverse_mean[at + lane] = 1.0 / parts[3][lane];
         }
-    }
-}
-
-/// Does something with points of each material, a chunk at a time; puts them in order.
-fn for_materials(tables: &Tables, points: &mut [TransparentHit], mut each: impl FnMut(u32, &[TransparentHit])) {
-    let material_of = |hit: &TransparentHit| tables.geometry.material(hit.instance, hit.primitive);
-    points.sort_unstable_by_key(|hit| (material_of(hit), hit.ray));
-    for of_one in points.chunk_by(|a, b| material_of(a) == material_of(b)) {
-        of_one.chunks(CHUNK).for_each(|chunk| each(material_of(&chunk[0]), chunk));
     }
 }
 

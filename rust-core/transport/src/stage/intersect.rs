@@ -116,7 +116,7 @@ fn add_shapes<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths: &Pa
             let factor = tables.lights.scattered_factor(l, light, (flags >> flag::LAST_SHIFT) & 3);
             weight = (flags & flag::CAMERA).ne(0).select(weight, weight * factor);
         }
-        let radiance = if tables.any_volume {
+        let radiance = if tables.any_absorbing {
             radiance * volume::left(l, paths, path, l.gather(&hits.t, path) - paths.rays.passed.distance(l, path))
         } else {
             radiance

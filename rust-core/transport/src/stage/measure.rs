@@ -140,7 +140,7 @@ fn queue_shadow_ray<L: Lanes>(
     let lit = usable & value.is_lit() & value.max_component().is_finite();
     deposits.note_lost(&point.at, point.alive.and_not(lit));
     let light = Contribution::sampled(sample.light, point.slot, value, chunk.l.u(0), None);
-    let medium = if chunk.tables.any_volume { Some(point.medium) } else { None };
+    let medium = if chunk.tables.any_absorbing { Some(point.medium) } else { None };
     let straight = gone_straight(chunk.tables, chunk.transport, chunk.l.u(0));
     // What is measured is never clamped.
     let along = Along { medium, straight, ceiling: Some(chunk.l.f(f32::MAX)) };

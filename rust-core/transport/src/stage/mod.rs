@@ -14,7 +14,7 @@
 //! - [`merge`] takes up photons behind mirrors and smooth glass.
 //! - [`shadow`] traces shadow rays and adds what arrives; [`volume`] says what light loses in what fills meshes.
 //!
-//! `schedule/light` starts light paths by [`emit`], and shades by [`forward`].
+//! `schedule/light` starts light paths by [`emit`], and shades by [`forward`]. [`start_media`] says what absorbs where paths start.
 
 pub(crate) mod catcher;
 pub(crate) mod closure;
@@ -40,6 +40,7 @@ pub(crate) mod sensors;
 pub(crate) mod shade;
 pub(crate) mod shadow;
 pub(crate) mod sort;
+pub(crate) mod start_media;
 pub(crate) mod straight;
 pub(crate) mod subsurface;
 pub(crate) mod surface;

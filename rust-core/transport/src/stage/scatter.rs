@@ -71,6 +71,7 @@ fn start_walks<L: Lanes>(point: &Vertex<L>, wi: Vec3<L>, throughput: Spectrum<L>
         ray: RayLanes { origin: point.at.position, direction: wi, t_min, t_max: t_min },
         throughput,
         medium: *medium,
+        path: point.path,
         instance: point.instance,
         slot: point.slot,
         flags: point.flags,

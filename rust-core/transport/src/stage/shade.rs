@@ -204,7 +204,7 @@ pub(crate) fn guide_and_measure<L: Lanes>(
             width: point.width,
             slot: point.slot,
             receiver: point.at.receiver,
-            medium: if chunk.tables.any_volume { point.medium } else { Spectrum::zero(chunk.l) },
+            medium: if chunk.tables.any_absorbing { point.medium } else { Spectrum::zero(chunk.l) },
         };
         points.append(&measured, going_on.and_not(all_delta) & is_specular_path(point.flags, point.slot));
     }

@@ -107,7 +107,7 @@ fn block_deep(limits: &Limits, trace: &mut ShadowTrace, shadows: &ShadowRays) {
 
 /// Multiplies contributions by the transmittance of the surfaces their rays passed, material by material.
 fn dim_by_surfaces(tables: &Tables, transport: &Transport, trace: &mut ShadowTrace, shadows: &mut ShadowRays, columns: &mut ChunkColumns) {
-    if tables.any_volume {
+    if tables.any_absorbing {
         dispatch!(transport.execution, l => volume::begin(l, shadows, trace));
     }
     if tables.any_transparent && transport.limits.counts_straight() {
@@ -128,7 +128,7 @@ fn dim_by_surfaces(tables: &Tables, transport: &Transport, trace: &mut ShadowTra
         }
     }
     trace.passed = passed;
-    if tables.any_volume {
+    if tables.any_absorbing {
         dispatch!(transport.execution, l => volume::dim(l, shadows, trace));
     }
 }

@@ -1,9 +1,10 @@
 //! Material sort: hits in the order of their materials (pbrt's material queues), so that a chunk runs one program and one set of lobes.
 
+use crate::graph::CHUNK;
 use crate::state::material_order::MaterialOrder;
 use crate::tables::Tables;
 use crate::tables::transport::Transport;
-use gonio_accel::{Hits, NONE};
+use gonio_accel::{Hits, NONE, TransparentHit};
 use gonio_simd::{Execution, Lanes, M, PADDING, dispatch, padded};
 
 /// Looks up the material of every hit, [`NONE`] where there is none.
@@ -24,6 +25,15 @@ pub(crate) fn list_materials<L: Lanes>(l: L, tables: &Tables, hits: &Hits, mater
 pub(crate) fn sort_by_material(tables: &Tables, transport: &Transport, materials: &mut MaterialOrder) {
     let MaterialOrder { material_of, order, starts, ends, .. } = materials;
     order_by_material(transport.execution, tables.materials.surfaces.len(), material_of, order, starts, ends);
+}
+
+/// Does something with points of each material, a chunk at a time; puts them in order.
+pub(crate) fn for_materials(tables: &Tables, points: &mut [TransparentHit], mut each: impl FnMut(u32, &[TransparentHit])) {
+    let material_of = |hit: &TransparentHit| tables.geometry.material(hit.instance, hit.primitive);
+    points.sort_unstable_by_key(|hit| (material_of(hit), hit.ray));
+    for of_one in points.chunk_by(|a, b| material_of(a) == material_of(b)) {
+        of_one.chunks(CHUNK).for_each(|chunk| each(material_of(&chunk[0]), chunk));
+    }
 }
 
 /// Lists the paths of each material in their order: `order[starts[m]..ends[m]]`. Paths of material [`NONE`] are left out; `material_of` is padded

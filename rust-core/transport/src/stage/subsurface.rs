@@ -209,7 +209,12 @@ fn exit_point<L: Lanes>(chunk: &ChunkContext<'_, L>, at: usize, walks: &Walks) -
         width: l.gather(&walks.width, walk),
         spread: l.f(CONE_PER_ROUGHNESS),
         bounces: flags >> flag::BOUNCE_SHIFT,
-        medium: Spectrum::zero(l),
+        // It comes out into what the path came from.
+        medium: if chunk.tables.any_absorbing {
+            chunk.paths.medium.gather(l, l.gather_integers(&walks.path, walk))
+        } else {
+            Spectrum::zero(l)
+        },
         behind: Spectrum::zero(l),
         all_delta: l.m(false),
         direct_brought: l.m(false),

@@ -41,7 +41,7 @@ pub(crate) fn left<L: Lanes>(l: L, paths: &Paths, path: U<L>, distance: F<L>) ->
 /// What a ray starts in that leaves a point in a direction.
 #[inline(always)]
 pub(crate) fn start<L: Lanes>(tables: &Tables, point: &Vertex<L>, direction: Vec3<L>) -> Option<Spectrum<L>> {
-    if tables.any_volume { Some(point.at.geometric.dot(direction).lt(0.0).select(point.behind, point.medium)) } else { None }
+    if tables.any_absorbing { Some(point.at.geometric.dot(direction).lt(0.0).select(point.behind, point.medium)) } else { None }
 }
 
 /// Begins the sums of all queued shadow rays with what they start in.

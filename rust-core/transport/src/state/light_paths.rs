@@ -3,6 +3,7 @@
 use crate::state::columns::{Columns3, append3, columns3};
 use crate::state::flag;
 use crate::state::glow::GlowRoom;
+use crate::state::media::StartRoom;
 use crate::state::queue::shadow_rays::ShadowRays;
 use crate::tables::ray_mask;
 use gonio_camera::sampler::{BATCH, CAPACITY};
@@ -78,6 +79,8 @@ pub(crate) struct LightPathQueues {
     pub(crate) connections: Connections,
     /// Scratch where programs know what lights emit.
     pub(crate) glow: Option<Box<GlowRoom>>,
+    /// Scratch where lamps may stand in what absorbs.
+    pub(crate) media: Option<Box<StartRoom>>,
 }
 
 impl Default for LightStarts {

@@ -1,5 +1,6 @@
 //! What kernels see of a compiled scene and of a view: tables, which no stage changes.
 
+pub(crate) mod bodies;
 pub(crate) mod bright_places;
 pub(crate) mod expressions;
 pub(crate) mod guiding;
@@ -15,6 +16,7 @@ pub(crate) mod shutter;
 pub(crate) mod transport;
 
 use crate::geometry::GeometryTable;
+use crate::tables::bodies::Bodies;
 use crate::tables::light_groups::LightGroups;
 use crate::tables::links::Links;
 use gonio_accel::Tlas;
@@ -62,6 +64,8 @@ pub struct Tables {
     pub any_absorbing: bool,
     /// Whether any material fills meshes with what absorbs straight light, too.
     pub any_volume: bool,
+    /// Placed meshes that absorb inside.
+    pub bodies: Bodies,
     /// World position of the rebased origin, metres.
     pub origin: [f64; 3],
 }

@@ -21,6 +21,8 @@ pub(crate) struct Walks {
     pub(crate) anisotropy: Column,
     /// Probabilities of the components by which the flight was sampled.
     pub(crate) channels: SpectrumColumns,
+    /// The path that entered.
+    pub(crate) path: Column<u32>,
     pub(crate) instance: Column<u32>,
     pub(crate) slot: Column<u32>,
     pub(crate) flags: Column<u32>,
@@ -40,6 +42,7 @@ impl Default for Walks {
             extinction: spectra(),
             anisotropy: Column::new(room),
             channels: spectra(),
+            path: Column::new(room),
             instance: Column::new(room),
             slot: Column::new(room),
             flags: Column::new(room),
@@ -64,6 +67,7 @@ pub(crate) struct WalkLanes<L: Lanes> {
     pub(crate) ray: RayLanes<L>,
     pub(crate) throughput: Spectrum<L>,
     pub(crate) medium: Medium<L>,
+    pub(crate) path: U<L>,
     pub(crate) instance: U<L>,
     pub(crate) slot: U<L>,
     pub(crate) flags: U<L>,
@@ -85,6 +89,7 @@ impl Walks {
         self.albedo.append(w.medium.albedo, chosen, n);
         self.extinction.append(w.medium.extinction, chosen, n);
         w.medium.anisotropy.append(chosen, &mut self.anisotropy, n);
+        w.path.append(chosen, &mut self.path, n);
         w.instance.append(chosen, &mut self.instance, n);
         w.slot.append(chosen, &mut self.slot, n);
         w.flags.append(chosen, &mut self.flags, n);
@@ -103,6 +108,7 @@ impl Walks {
                 extinction: self.extinction.load(l, at),
                 anisotropy: l.load(&self.anisotropy, at),
             },
+            path: l.load_integers(&self.path, at),
             instance: l.load_integers(&self.instance, at),
             slot: l.load_integers(&self.slot, at),
             flags: l.load_integers(&self.flags, at),

@@ -1,0 +1,215 @@
+//! What absorbs where paths start: the closed meshes that hold the place of a lamp, a camera or a meter.
+//!
+//! A ray from the place leaves each mesh that holds it once more than it enters it. Cycles fills its stack of volumes in the same way.
+
+use crate::accumulate::deposit::to_film;
+use crate::kernels;
+use crate::stage::sort::for_materials;
+use crate::stage::surface::{ChunkRays, ChunkSource};
+use crate::stage::volume::filling;
+use crate::state::media::StartRoom;
+use crate::state::rays::Rays;
+use crate::tables::Tables;
+use crate::tables::bodies::Body;
+use crate::tables::material::{Shading, parameter_values};
+use gonio_accel::{NONE, TransparentHit};
+use gonio_bsdf::parameter::spectrum;
+use gonio_simd::{Execution, Lanes, One, PADDING, Rgb, SpectrumColumns, dispatch, padded};
+
+/// Along no axis and no diagonal, so that it seldom meets an edge.
+const DIRECTION: [f32; 3] = [0.233_25, 0.317_56, 0.919_11];
+/// Most surfaces of a mesh that are crossed.
+const MOST: usize = 4096;
+
+/// Absorption a metre at a place in world space, R, G, B.
+pub fn medium_at(tables: &Tables, place: [f64; 3]) -> [f32; 3] {
+    let origin = [0, 1, 2].map(|axis| (place[axis] - tables.origin[axis]) as f32);
+    if !tables.bodies.all.iter().any(|body| holds(body, origin)) {
+        return [0.0; 3];
+    }
+    let mut rays = Rays::new(PADDING, u8::MAX);
+    for axis in 0..3 {
+        rays.origin[axis][0] = origin[axis];
+        rays.direction[axis][0] = DIRECTION[axis];
+    }
+    let mut media = SpectrumColumns::new(PADDING);
+    start_media(tables, Execution::Scalar, &tables.bodies.all, &rays, 1, &mut media, &mut StartRoom::default());
+    let Rgb { r, g, b } = to_film(media.load(One, 0));
+    [r.0, g.0, b.0]
+}
+
+/// Adds absorption a metre to `media` where the first `count` rays start, which look along their own directions for the bodies that hold them.
+pub(crate) fn start_media(
+    tables: &Tables,
+    execution: Execution,
+    bodies: &[Body],
+    rays: &Rays,
+    count: usize,
+    media: &mut SpectrumColumns,
+    room: &mut StartRoom,
+) {
+    room.crossings.clear();
+    for body in bodies {
+        room.pending.clear();
+        dispatch!(execution, l => list_held(l, body, rays, count, &mut room.pending));
+        cross(tables, execution, body.instance, rays, room);
+    }
+    if room.crossings.is_empty() {
+        return;
+    }
+    look_up(tables, execution, rays, room);
+    if tables.any_volume {
+        add_all(room, media);
+        dispatch!(execution, l => without_less_than_nothing(l, media, count));
+    } else {
+        add_innermost(room, media);
+    }
+}
+
+fn holds(body: &Body, place: [f32; 3]) -> bool {
+    let [min, max] = body.bounds;
+    (0..3).all(|axis| (min[axis]..=max[axis]).contains(&place[axis]))
+}
+
+/// Lists the rays that start within a body's bounds.
+#[inline(always)]
+fn list_held<L: Lanes>(l: L, body: &Body, rays: &Rays, count: usize, held: &mut Vec<u32>) {
+    let [min, max] = body.bounds;
+    for at in (0..count).step_by(L::COUNT) {
+        let mut inside = l.first(count - at);
+        for axis in 0..3 {
+            let place = l.load(&rays.origin[axis], at);
+            inside &= place.ge(min[axis]) & place.le(max[axis]);
+        }
+        let bits = inside.bits();
+        held.extend((0..L::COUNT as u32).filter(|lane| bits >> lane & 1 != 0).map(|lane| at as u32 + lane));
+    }
+}
+
+/// Notes every surface of an instance that the pending rays cross.
+fn cross(tables: &Tables, execution: Execution, instance: u32, rays: &Rays, room: &mut StartRoom) {
+    let StartRoom { pending, from, rays: way, instances, hits, crossings, .. } = room;
+    from.clear();
+    from.resize(pending.len(), 0.0);
+    for _ in 0..MOST {
+        let count = pending.len();
+        if count == 0 {
+            return;
+        }
+        way.select(rays, pending);
+        way.t_min[..count].copy_from_slice(from);
+        way.t_max[..count].fill(f32::INFINITY);
+        way.mask[..count].fill(u8::MAX);
+        instances.clear();
+        instances.resize(count, instance);
+        tables.bvh.first_hit_within(execution, &way.batch(0..count), instances, hits);
+        let mut kept = 0;
+        for i in (0..count).filter(|i| hits.instance[*i] != NONE) {
+            let (ray, t) = (pending[i], hits.t[i]);
+            crossings.push(TransparentHit { ray, instance, primitive: hits.primitive[i], u: hits.u[i], v: hits.v[i], t });
+            (pending[kept], from[kept]) = (ray, t.next_up());
+            kept += 1;
+        }
+        pending.truncate(kept);
+        from.truncate(kept);
+    }
+}
+
+/// Finds the sides of all crossings, and what absorbs behind their surfaces.
+fn look_up(tables: &Tables, execution: Execution, rays: &Rays, room: &mut StartRoom) {
+    let mut crossings = std::mem::take(&mut room.crossings);
+    room.absorption = SpectrumColumns::new(padded(crossings.len()) + PADDING);
+    room.sides.clear();
+    for_materials(tables, &mut crossings, |material, chunk| {
+        dispatch!(execution, l => look_up_chunk(l, tables, material, chunk, rays, room));
+        for i in 0..chunk.len() {
+            let at = room.sides.len();
+            room.absorption.add(at, &room.chunk, i, 1.0);
+            room.sides.push(room.columns.surface.side[i]);
+        }
+    });
+    room.crossings = crossings;
+}
+
+#[inline(always)]
+fn look_up_chunk<L: Lanes>(l: L, tables: &Tables, material: u32, hits: &[TransparentHit], rays: &Rays, room: &mut StartRoom) {
+    let mut order = [0; crate::graph::CHUNK];
+    order.iter_mut().zip(0..hits.len() as u32).for_each(|(place, number)| *place = number);
+    let source = ChunkSource { order: &order, count: hits.len(), rays: ChunkRays::Rays(rays) };
+    room.chunk.clear();
+    match tables.materials.shading(material) {
+        Shading::Surface(surface) => add_inside(l, tables, surface as usize, (hits, &source), None, room),
+        Shading::Mix(mix) => {
+            let mix = &tables.materials.mixes[mix as usize];
+            let StartRoom { columns, weights, .. } = room;
+            kernels::run_program(l, tables, &mix.program, hits, &source, columns);
+            weights.clear();
+            (0..mix.count * 3).for_each(|column| weights.extend_from_slice(columns.outputs.column(column)));
+            for closure in 0..mix.count {
+                add_inside(l, tables, mix.first as usize + closure, (hits, &source), Some(closure), room);
+            }
+        }
+    }
+    if let Some(interior) = tables.materials.interior(material) {
+        let filling = filling(l, interior);
+        (0..hits.len()).step_by(L::COUNT).for_each(|at| room.chunk.store(room.chunk.load(l, at) + filling, at));
+    }
+}
+
+/// Adds what a surface encloses, times its weights if it is a closure of several.
+#[inline(always)]
+fn add_inside<L: Lanes>(
+    l: L,
+    tables: &Tables,
+    surface: usize,
+    (hits, source): (&[TransparentHit], &ChunkSource<'_>),
+    closure: Option<usize>,
+    room: &mut StartRoom,
+) {
+    let material = &tables.materials.surfaces[surface];
+    let StartRoom { chunk, weights, columns, .. } = room;
+    kernels::run_program(l, tables, &material.program, hits, source, columns);
+    if material.surface.switches.thin_walled || !material.surface.lobes.transmission {
+        return;
+    }
+    let values = parameter_values(material, &columns.outputs);
+    for at in (0..hits.len()).step_by(L::COUNT) {
+        let mut inside = material.surface.absorption(l, &values, at);
+        if let Some(closure) = closure {
+            let own = [0, 1, 2].map(|c| &weights[(closure * 3 + c) * crate::graph::CHUNK..]);
+            inside = inside * spectrum(Rgb::load(l, own, at)).max(0.0);
+        }
+        chunk.store(chunk.load(l, at) + inside, at);
+    }
+}
+
+/// Volumes add up: what rays leave more often than they enter.
+fn add_all(room: &StartRoom, media: &mut SpectrumColumns) {
+    for (i, (crossing, side)) in room.crossings.iter().zip(&room.sides).enumerate() {
+        media.add(crossing.ray as usize, &room.absorption, i, -side);
+    }
+}
+
+/// Open meshes may be left without having been entered, or the other way round.
+#[inline(always)]
+fn without_less_than_nothing<L: Lanes>(l: L, media: &mut SpectrumColumns, count: usize) {
+    (0..count).step_by(L::COUNT).for_each(|at| media.store(media.load(l, at).max(0.0), at));
+}
+
+/// Solids take each other's place: what the nearest surface encloses of those that hold the place.
+fn add_innermost(room: &StartRoom, media: &mut SpectrumColumns) {
+    let StartRoom { crossings, sides, absorption, .. } = room;
+    let mut order: Vec<usize> = (0..crossings.len()).collect();
+    let body = |i: &usize| (crossings[*i].ray, crossings[*i].instance);
+    order.sort_unstable_by(|a, b| body(a).cmp(&body(b)).then(crossings[*a].t.total_cmp(&crossings[*b].t)));
+    let exits = order.chunk_by(|a, b| body(a) == body(b)).filter_map(|of_body| {
+        let left: f32 = of_body.iter().map(|i| -sides[*i]).sum();
+        of_body.iter().copied().find(|i| sides[*i] < 0.0).filter(|_| left > 0.0)
+    });
+    let exits: Vec<usize> = exits.collect();
+    for of_ray in exits.chunk_by(|a, b| crossings[*a].ray == crossings[*b].ray) {
+        if let Some(nearest) = of_ray.iter().min_by(|a, b| crossings[**a].t.total_cmp(&crossings[**b].t)) {
+            media.add(crossings[*nearest].ray as usize, absorption, *nearest, 1.0);
+        }
+    }
+}

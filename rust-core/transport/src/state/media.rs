@@ -1,0 +1,47 @@
+//! Scratch of what places are in from which paths start; see `stage/start_media.rs`.
+
+use crate::graph::CHUNK;
+use crate::state::chunk::ChunkColumns;
+use crate::state::rays::Rays;
+use gonio_accel::{Hits, TransparentHit};
+use gonio_camera::sampler::CAPACITY;
+use gonio_simd::{PADDING, SpectrumColumns, padded};
+
+/// Surfaces of bodies that rays cross, and what absorbs behind them.
+#[derive(Debug)]
+pub(crate) struct StartRoom {
+    /// Rays that still cross a body, and where they go on.
+    pub(crate) pending: Vec<u32>,
+    pub(crate) from: Vec<f32>,
+    pub(crate) rays: Rays,
+    pub(crate) instances: Vec<u32>,
+    pub(crate) hits: Hits,
+    pub(crate) crossings: Vec<TransparentHit>,
+    /// By crossing, 1 where the ray enters the body, else −1.
+    pub(crate) sides: Vec<f32>,
+    /// By crossing, absorption a metre behind the surface.
+    pub(crate) absorption: SpectrumColumns,
+    /// Those of a chunk.
+    pub(crate) chunk: SpectrumColumns,
+    /// Weights of a mix over a chunk, three channels a closure.
+    pub(crate) weights: Vec<f32>,
+    pub(crate) columns: ChunkColumns,
+}
+
+impl Default for StartRoom {
+    fn default() -> Self {
+        Self {
+            pending: Vec::new(),
+            from: Vec::new(),
+            rays: Rays::new(padded(CAPACITY) + PADDING, u8::MAX),
+            instances: Vec::new(),
+            hits: Hits::default(),
+            crossings: Vec::new(),
+            sides: Vec::new(),
+            absorption: SpectrumColumns::new(0),
+            chunk: SpectrumColumns::new(CHUNK),
+            weights: Vec::new(),
+            columns: ChunkColumns::default(),
+        }
+    }
+}
