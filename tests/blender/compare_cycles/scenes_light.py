@@ -2,6 +2,7 @@
 
 from math import radians
 
+import bpy
 import numpy
 from stage import ball, box, camera, diffuse, distribution, even_world, ies, image, image_world, lamp, material, plane, principled, sky_world
 
@@ -79,8 +80,6 @@ def mesh_emitter() -> None:
 
 def _linked(emitter, name, states, kind="receiver_collection") -> None:
     """Gives an emitter a collection of receivers or blockers; `states` are link states by object."""
-    import bpy
-
     collection = bpy.data.collections.new(name)
     for thing in states:
         collection.objects.link(thing)
@@ -141,3 +140,34 @@ def sky_preetham() -> None:
 def sky_hosek_wilkie() -> None:
     corner()
     sky_world("HOSEK_WILKIE", 3.0, sun_direction=(-0.4, -0.7, 0.6), turbidity=4.0, ground_albedo=0.4)
+
+
+def soft_falloff() -> None:
+    """Lamps with soft falloff that reach into the floor, the wall and the box."""
+    corner()
+    lamp("POINT", 20.0, (-0.2, -1.0, 0.15), color=(1.0, 0.6, 0.4), shadow_soft_size=0.3, use_soft_falloff=True)
+    lamp("POINT", 25.0, (0.1, 1.9, 1.4), color=(0.4, 1.0, 0.5), shadow_soft_size=0.25, use_soft_falloff=True)
+    lamp("SPOT", 90.0, (1.2, 0.0, 1.1), (0.9, 0.6, 0.0), spot_size=radians(110), spot_blend=0.4, shadow_soft_size=0.3, use_soft_falloff=True)
+
+
+def world_visibility() -> None:
+    """A world that lights what scatters diffusely, and neither mirrors nor glass nor the camera show."""
+    corner()
+    even_world(1.2, (0.6, 0.8, 1.0))
+    world = bpy.context.scene.world.cycles_visibility
+    world.camera = world.glossy = world.transmission = False
+    ball(material("BsdfAnisotropic", Color=(0.9, 0.9, 0.9), Roughness=0.2), 0.35, location=(0.1, -0.9, 0.35))
+    ball(material("BsdfGlass", Roughness=0.0, IOR=1.45), 0.3, location=(-1.2, -0.9, 0.3))
+    lamp("POINT", 60.0, (1.6, -1.2, 2.6), shadow_soft_size=0.3, use_soft_falloff=False)
+
+
+def opaque_shadows() -> None:
+    """Two panes and a ball that light passes, their shadows opaque on one side."""
+    corner()
+    for number, is_transparent in enumerate((True, False)):
+        pane = material("BsdfTransparent", Color=(0.9, 0.5, 0.2))
+        mixed = material("BsdfGlass", Color=(0.8, 0.9, 1.0), Roughness=0.0, IOR=1.45)
+        pane.use_transparent_shadow = mixed.use_transparent_shadow = is_transparent
+        plane(pane, 0.8, location=(-1.2 + 2.2 * number, -0.9, 0.9), rotation=(0.5, 0.3, 0.0))
+        ball(mixed, 0.25, location=(-0.4 + 0.8 * number, -1.3, 0.25))
+    lamp("POINT", 120.0, (0.0, -1.6, 3.0), shadow_soft_size=0.3, use_soft_falloff=False)

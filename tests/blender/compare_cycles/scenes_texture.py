@@ -107,3 +107,24 @@ def relief() -> None:
     ball(bumpy(), 0.7, location=(-0.9, 0.0, 0.7))
     ball(dented(), 0.7, location=(0.9, 0.0, 0.7))
     stage()
+
+
+def alpha() -> None:
+    """Packed pictures with alpha: straight, premultiplied, without alpha, and clipped outside."""
+    ramp = waves()
+    edge = numpy.clip(3.0 * ramp - 1.0, 0.0, 1.0)
+    straight = numpy.stack([ramp, 0.9 - 0.6 * ramp, 0.3 + 0.5 * ramp**2, edge], axis=-1)
+    multiplied = straight * numpy.stack([edge, edge, edge, 0.0 * edge + 1.0], axis=-1)
+    plane(None, size=14.0)
+    soft_sky()
+    lamp("AREA", 150.0, (-2.5, -3.0, 4.0), (0.65, -0.45, 0.0), shape="DISK", size=4.0)
+    for number, (is_float, mode, extension) in enumerate(
+        ((False, "STRAIGHT", "REPEAT"), (True, "PREMUL", "REPEAT"), (False, "CHANNEL_PACKED", "CLIP"), (False, "NONE", "CLIP"))
+    ):
+        shown = image(f"Alpha {number}", multiplied if mode == "PREMUL" else straight, is_float=is_float)
+        shown.alpha_mode = mode
+        made, tree, picture = textured(shown, scale=(1.5, 1.5, 1.0), extension=extension)
+        shader = node(tree, "ShaderNodeBsdfPrincipled", Base_Color=picture.outputs["Color"], Alpha=picture.outputs["Alpha"], Roughness=0.6)
+        surface(tree, shader)
+        plane(made, size=1.3, location=(1.4 * number - 2.1, 0.0, 0.75), rotation=(1.3, 0.0, 0.0))
+    camera((0.0, -8.0, 2.4), (0.0, 0.0, 0.6), lens=45.0)
