@@ -144,8 +144,18 @@ def grid_lines(reading) -> tuple[str, ...]:
     figures = (("avg", reading.average), ("min", reading.min), ("max", reading.max))
     lines = [" ".join(f"{symbol}_{name}: {figure.value:.4g} {unit} ± {figure.standard_error:.2g}".split()) for name, figure in figures]
     columns, rows = reading.size
-    lines += [f"U0: {reading.uniformity:.3f}   Ud: {reading.diversity:.3f}", f"{columns} × {rows} points", *_left_out(reading.coverage)]
+    lines += [f"U0: {reading.uniformity:.3f}   Ud: {reading.diversity:.3f}", f"{columns} × {rows} points", *_tabular(reading), *_left_out(reading.coverage)]
     return tuple(lines)
+
+
+def _tabular(reading) -> list[str]:
+    """Glare ratings as UGR tables have them, where sources are small enough for CIE 147's own formula."""
+    values = np.asarray(reading.as_in_tables)
+    if values.size == 0 or not reading.rating_note or "CIE 147" not in reading.rating_note:
+        return []
+    if not np.isfinite(values).all():
+        return ["Small sources by CIE 147; points have no rating in UGR tables"]
+    return ["Small sources by CIE 147; as in UGR tables:", f"UGR_avg: {values.mean():.4g}   UGR_max: {values.max():.4g}"]
 
 
 def _left_out(coverage) -> list[str]:

@@ -58,7 +58,9 @@ def test_observers_in_an_office(office, by_hand):
     # What a table's last value beyond its end made of the first.
     assert found.meters[0].value < 19
     header, line = found.csv().split("\r\n")[:2]
-    assert header.endswith(",unit,left_out,share_left_out") and line.split(",")[-2] == "3"
+    assert header.endswith(",unit,left_out,share_left_out,ugr_as_in_tables") and line.split(",")[-3] == "3"
+    # No luminaire is small: both ratings are one.
+    assert found.meters[0].small_sources == 0 and found.meters[0].as_in_tables.value == found.meters[0].value
 
 
 def test_the_luminaires_own_table():

@@ -164,7 +164,7 @@ fn meter_line(meter: &MeterReading) -> String {
     let (measurand, [x, y, z]) = (meter.meter.measurand, meter.meter.position);
     let Reading { value, standard_error } = meter.reading;
     let (name, unit) = (measurand.name(), spaced(measurand));
-    let note = meter.coverage.and_then(|coverage| coverage.note()).map_or(String::new(), |note| format!("; {note}"));
+    let note = meter.rating_note().map_or(String::new(), |note| format!("; {note}"));
     format!("{}: {name} {value:.4}{unit} ± {standard_error:.2} at {x:.3}, {y:.3}, {z:.3} m{note}", meter.meter.origin)
 }
 
@@ -192,7 +192,7 @@ fn grid_lines(grid: &GridReading) -> Vec<String> {
         format!("  U0 (least / average): {:.3}", summary.uniformity()),
         format!("  Ud (least / greatest): {:.3}", summary.diversity()),
     ];
-    lines.extend(grid.coverage_note().map(|note| format!("  {note}")));
+    lines.extend(grid.rating_note().map(|note| format!("  {note}")));
     lines
 }
 
@@ -207,6 +207,8 @@ fn as_json(found: &Measurements) -> Value {
             "value": meter.reading.value,
             "standard_error": meter.reading.standard_error,
             "ugr_coverage": meter.coverage.as_ref().map(coverage_json),
+            "ugr_small_sources": meter.small.map(|small| small.count),
+            "ugr_as_in_tables": meter.small.and_then(|small| small.tabular).as_ref().map(reading),
         })
     };
     let grid = |grid: &GridReading| {
@@ -225,6 +227,8 @@ fn as_json(found: &Measurements) -> Value {
             "uniformity_u0": grid.summary.uniformity(),
             "diversity_ud": grid.summary.diversity(),
             "ugr_coverage": grid.coverage.iter().map(coverage_json).collect::<Vec<_>>(),
+            "ugr_small_sources": grid.small.iter().map(|small| small.count).collect::<Vec<_>>(),
+            "ugr_as_in_tables": grid.small.iter().map(|small| small.tabular.map(|reading| reading.value)).collect::<Vec<_>>(),
             "values": grid.points.iter().map(|point| point.map(|(_, reading)| reading.value)).collect::<Vec<_>>(),
         })
     };

@@ -20,11 +20,12 @@ use pyo3::prelude::*;
 pub(crate) struct Reading {
     reading: measure::Reading,
     coverage: Option<measure::glare::Coverage>,
+    small: Option<measure::SmallSources>,
 }
 
 impl Reading {
     pub(crate) fn of(reading: measure::Reading) -> Self {
-        Self { reading, coverage: None }
+        Self { reading, coverage: None, small: None }
     }
 }
 
@@ -44,6 +45,16 @@ impl Reading {
     #[getter]
     fn coverage(&self) -> Option<Coverage> {
         self.coverage.as_ref().map(Coverage::of)
+    }
+    /// How many sources of a meter's glare rating are below 0.005 m², which CIE 147 rates as small; None of other quantities.
+    #[getter]
+    fn small_sources(&self) -> Option<usize> {
+        self.small.map(|small| small.count)
+    }
+    /// A meter's glare rating by CIE 117 alone, as UGR tables have it; None of other quantities, and where a source is a point.
+    #[getter]
+    fn as_in_tables(&self) -> Option<Self> {
+        self.small.and_then(|small| small.tabular).map(Self::of)
     }
     fn __float__(&self) -> f64 {
         self.reading.value
@@ -121,7 +132,17 @@ impl GridReading {
     fn coverage(&self) -> Vec<Coverage> {
         self.grid.coverage.iter().map(Coverage::of).collect()
     }
-    /// The same in words for all points; None where all is rated.
+    /// Glare ratings by CIE 117 alone, as UGR tables have them, at the points that were measured; nan where a source is a point, empty of other quantities.
+    #[getter]
+    fn as_in_tables(&self) -> Array {
+        Array::flat(self.grid.small.iter().map(|small| small.tabular.map_or(f64::NAN, |reading| reading.value)).collect())
+    }
+    /// The same in words for all points, and which sources are rated as small; None where there is nothing to be said.
+    #[getter]
+    fn rating_note(&self) -> Option<String> {
+        self.grid.rating_note()
+    }
+    /// The coverage in words for all points; None where all is rated.
     #[getter]
     fn coverage_note(&self) -> Option<String> {
         self.grid.coverage_note()
@@ -170,7 +191,7 @@ impl Measurements {
     /// Readings of the meters, in the scene's order.
     #[getter]
     fn meters(&self) -> Vec<Reading> {
-        self.found.meters.iter().map(|meter| Reading { reading: meter.reading, coverage: meter.coverage }).collect()
+        self.found.meters.iter().map(|meter| Reading { reading: meter.reading, coverage: meter.coverage, small: meter.small }).collect()
     }
     /// Readings of the grids, in the scene's order.
     #[getter]

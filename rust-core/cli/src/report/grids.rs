@@ -22,7 +22,7 @@ pub(super) fn write_grids(options: &ReportOptions, grids: &[GridReading], power:
         options.point_spp
     ));
     for grid in grids {
-        if let Some(note) = grid.coverage_note() {
+        if let Some(note) = grid.rating_note() {
             page.note(&format!("{}: {note}.", grid.origin));
         }
     }
@@ -71,7 +71,7 @@ pub(super) fn write_meters(meters: &[MeterReading], page: &mut Page) {
     };
     page.table(&["meter", "quantity", "at, m", "value"], &meters.iter().map(row).collect::<Vec<_>>(), &[]);
     for found in meters {
-        if let Some(note) = found.coverage.and_then(|coverage| coverage.note()) {
+        if let Some(note) = found.rating_note() {
             page.note(&format!("{}: {note}.", found.meter.origin));
         }
     }

@@ -33,6 +33,17 @@ pub(super) struct Eye {
     axes: [Vector; 3],
 }
 
+/// What a luminaire adds to a rating.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Share {
+    /// Σ L² ω / p², by CIE 147 where it is small.
+    pub(super) sum: f64,
+    /// The same by CIE 117's formula alone; none of a point, whose luminance is infinite.
+    pub(super) tabular: Option<f64>,
+    /// Whether it is rated as a small source.
+    pub(super) is_small: bool,
+}
+
 /// A part of a luminaire as an eye sees it.
 struct Part {
     /// Unit, from the eye, and the way in metres.
@@ -62,8 +73,8 @@ impl Eye {
 
     /// Σ L² ω / p² over the parts of a luminaire that nothing opaque hides: L is the luminance towards the eye, p the position index. A luminaire of a
     /// maker's file counts or not by its centre (CIE 117); other lights, of any size, part by part. What has no index is left out, and
-    /// counted. What shows less than 0.005 m² in all counts as having that area (CIE 147), so that points have a rating too.
-    pub(super) fn glare(&self, luminaire: &Luminaire, scene: &CompiledScene, coverage: &mut Coverage) -> f64 {
+    /// counted. What shows less than 0.005 m² in all counts as having that area (CIE 147), so that points have a rating too; UGR tables know no such rule.
+    pub(super) fn glare(&self, luminaire: &Luminaire, scene: &CompiledScene, coverage: &mut Coverage) -> Share {
         let place = subtract(self.position, scene.tables.origin).map(|x| x as f32);
         let mut parts: Vec<Part> = luminaire.emitters.iter().flat_map(|emitter| self.parts(emitter, place)).collect();
         let way = subtract(luminaire.centre, self.position);
@@ -85,11 +96,14 @@ impl Eye {
         if luminaire.casts_shadow {
             retain_seen(&mut parts, place, scene);
         }
-        let Some(brightest) = parts.iter().max_by(|a, b| a.light_left_out().total_cmp(&b.light_left_out())) else { return 0.0 };
+        let Some(brightest) = parts.iter().max_by(|a, b| a.light_left_out().total_cmp(&b.light_left_out())) else {
+            return Share { tabular: Some(0.0), ..Share::default() };
+        };
         coverage.count(brightest.weight.err(), solid_angle(&parts));
         parts.iter().for_each(|part| coverage.add_light(part.weight.err(), part.illuminance));
         let seen: f64 = parts.iter().map(|part| part.strength * part.weight.unwrap_or(0.0)).sum();
-        if area > 0.0 { seen * (area / SMALL).min(1.0) } else { seen }
+        let small = if area > 0.0 { (area / SMALL).min(1.0) } else { 1.0 };
+        Share { sum: seen * small, tabular: (area > 0.0 || seen == 0.0).then_some(seen), is_small: seen > 0.0 && area < SMALL }
     }
 
     /// A direction to the right, up and ahead.

@@ -19,7 +19,7 @@ mod tests;
 pub use csv::csv;
 pub use picture::value_picture;
 pub use points::{GridPoints, MOST_POINTS};
-pub use reading::{GridReading, MeterReading, Reading, Summary};
+pub use reading::{GridReading, MeterReading, Reading, SmallSources, Summary};
 pub use room::Room;
 
 use crate::{
@@ -31,6 +31,7 @@ use crate::{
 use daylight_factor::{ExteriorSky, under_domes};
 use glare::Coverage;
 use gonio_simd::Execution;
+use reading::Found;
 use sense::Probe;
 use std::sync::{Arc, atomic::AtomicBool};
 
@@ -93,8 +94,12 @@ pub fn measure(scene: &Scene, execution: Execution, watch: &mut Watch<'_>) -> Re
     let mut diagnostics = Vec::new();
     let readings = read(scene, &meters, execution, watch, &mut diagnostics)?;
     let (single, mut rest) = readings.split_at(scene.meters.len());
-    let of_meter =
-        |(meter, (reading, coverage)): (&Meter, &Found)| MeterReading { meter: meter.clone(), reading: *reading, coverage: *coverage };
+    let of_meter = |(meter, (reading, rated)): (&Meter, &Found)| MeterReading {
+        meter: meter.clone(),
+        reading: *reading,
+        coverage: rated.map(|(coverage, _)| coverage),
+        small: rated.map(|(_, small)| small),
+    };
     let meters = scene.meters.iter().zip(single).map(of_meter).collect();
     let mut of_grid = |(grid, points): (&crate::scene::Grid, GridPoints)| {
         let (own, others) = rest.split_at(points.known().count());
@@ -104,9 +109,6 @@ pub fn measure(scene: &Scene, execution: Execution, watch: &mut Watch<'_>) -> Re
     let grids = scene.grids.iter().zip(grids).map(&mut of_grid).collect();
     Ok(Measurements { meters, grids, diagnostics })
 }
-
-/// A reading, and of a glare rating what it leaves out.
-type Found = (Reading, Option<Coverage>);
 
 /// Readings of all meters: those under all lights in one go, daylight factors and glare in others.
 fn read(
@@ -145,7 +147,7 @@ fn read(
     if !rated.is_empty() {
         let observers: Vec<&Meter> = rated.iter().map(|i| &meters[*i]).collect();
         let values = ugr::ratings(scene, &observers, execution, watch, diagnostics)?;
-        rated.iter().zip(values).for_each(|(i, (reading, coverage))| readings[*i] = (reading, Some(coverage)));
+        rated.iter().zip(values).for_each(|(i, (reading, coverage, small))| readings[*i] = (reading, Some((coverage, small))));
     }
     Ok(readings)
 }

@@ -29,6 +29,29 @@ impl Reading {
     }
 }
 
+/// The sources that CIE 147 rates as small, and what UGR tables would say: by CIE 117's formula for all.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SmallSources {
+    /// How many there are.
+    pub count: usize,
+    /// The rating by CIE 117 alone; none where one of them is a point.
+    pub tabular: Option<Reading>,
+}
+
+impl SmallSources {
+    /// In words; none without any.
+    pub fn note(&self) -> Option<String> {
+        let tabular = match self.tabular {
+            Some(reading) => format!("by CIE 117 alone, as in UGR tables, {:.1}", reading.value),
+            None => "by CIE 117 alone, as in UGR tables, none: a point has no luminance".to_owned(),
+        };
+        (self.count > 0).then(|| format!("{} below 0.005 m² rated as small by CIE 147; {tabular}", self.count))
+    }
+}
+
+/// A reading, and of a glare rating what it leaves out and its small sources.
+pub(super) type Found = (Reading, Option<(Coverage, SmallSources)>);
+
 /// What a meter shows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeterReading {
@@ -38,6 +61,17 @@ pub struct MeterReading {
     pub reading: Reading,
     /// What a glare rating leaves out; none of other quantities.
     pub coverage: Option<Coverage>,
+    /// Sources that a glare rating takes as small, and what tables would say; none of other quantities.
+    pub small: Option<SmallSources>,
+}
+
+impl MeterReading {
+    /// What a glare rating is made of, in words; none where there is nothing to be said.
+    pub fn rating_note(&self) -> Option<String> {
+        let notes = [self.small.and_then(|small| small.note()), self.coverage.and_then(|coverage| coverage.note())];
+        let notes: Vec<String> = notes.into_iter().flatten().collect();
+        (!notes.is_empty()).then(|| notes.join("; "))
+    }
 }
 
 /// The figures of a grid. Least and greatest are those of noisy points: noise moves them outwards.
@@ -104,10 +138,12 @@ pub struct GridReading {
     pub summary: Summary,
     /// What the glare ratings leave out, by point in the order of those that were measured; empty of other quantities.
     pub coverage: Vec<Coverage>,
+    /// Sources that the glare ratings take as small, and what tables would say, in the same order.
+    pub small: Vec<SmallSources>,
 }
 
 impl GridReading {
-    pub(super) fn new(grid: &Grid, points: GridPoints, found: &[(Reading, Option<Coverage>)]) -> Self {
+    pub(super) fn new(grid: &Grid, points: GridPoints, found: &[Found]) -> Self {
         let readings = || found.iter().map(|(reading, _)| *reading);
         let mut next = readings();
         let placed = points.positions.iter().map(|position| position.and_then(|position| Some((position, next.next()?)))).collect();
@@ -120,8 +156,39 @@ impl GridReading {
             area: points.area,
             points: placed,
             summary: Summary::new(readings()),
-            coverage: found.iter().filter_map(|(_, coverage)| *coverage).collect(),
+            coverage: found.iter().filter_map(|(_, rated)| rated.map(|(coverage, _)| coverage)).collect(),
+            small: found.iter().filter_map(|(_, rated)| rated.map(|(_, small)| small)).collect(),
         }
+    }
+
+    /// The figures by CIE 117 alone, as UGR tables have them; none where no source counts as small, or one is a point.
+    pub fn tabular_summary(&self) -> Option<Summary> {
+        let readings: Vec<Reading> = self.small.iter().map(|small| small.tabular).collect::<Option<_>>()?;
+        self.small.iter().any(|small| small.count > 0).then(|| Summary::new(readings.into_iter()))
+    }
+
+    /// In words what the ratings are made of: small sources, and what is left out; none where there is nothing to be said.
+    pub fn rating_note(&self) -> Option<String> {
+        let notes: Vec<String> = [self.small_note(), self.coverage_note()].into_iter().flatten().collect();
+        (!notes.is_empty()).then(|| notes.join("; "))
+    }
+
+    fn small_note(&self) -> Option<String> {
+        let points = self.small.iter().filter(|small| small.count > 0).count();
+        let tabular = match self.tabular_summary() {
+            Some(Summary { average, min, max, .. }) => {
+                let [average, min, max] = [average, min, max].map(|reading| reading.value);
+                format!("average {average:.1}, least {min:.1}, greatest {max:.1}")
+            }
+            None => "none, since a point has no luminance".to_owned(),
+        };
+        let all = self.small.len();
+        let note = || {
+            format!(
+                "sources below 0.005 m² rated as small by CIE 147 at {points} of {all} points; by CIE 117 alone, as in UGR tables: {tabular}"
+            )
+        };
+        (points > 0).then(note)
     }
 
     /// In words what the ratings leave out; none where all is rated.

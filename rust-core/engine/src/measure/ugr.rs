@@ -1,14 +1,15 @@
 //! The Unified Glare Rating of a scene's luminaires at observers' places (CIE 117).
 //!
 //! UGR = 8 log₁₀(0.25 / L_b · Σ L² ω / p²), summed over the luminous parts that the eye sees: L is the luminance towards the eye, ω the solid angle,
-//! p Guth's position index as CIE 117 tabulates it; what is not in its table is left out. The background's luminance L_b is the illuminance at the eye without the luminaires' direct light, over π.
+//! p Guth's position index as CIE 117 tabulates it; what is not in its table is left out. Small luminaires have CIE 147's formula, which UGR tables do
+//! not know: where there are any, the rating without it stands beside the other. The background's luminance L_b is the illuminance at the eye without the luminaires' direct light, over π.
 
 use super::{
     Watch,
     daylight_factor::without_emission,
-    eye::Eye,
+    eye::{Eye, Share},
     glare::Coverage,
-    reading::Reading,
+    reading::{Reading, SmallSources},
     sense::{Probe, sense},
 };
 use crate::{
@@ -19,6 +20,9 @@ use crate::{
 use gonio_simd::Execution;
 use std::{f64::consts::PI, sync::Arc};
 
+/// A rating with what it leaves out, and with small sources.
+pub(super) type Rating = (Reading, Coverage, SmallSources);
+
 /// Ratings at all observers with what they leave out. 0 where no luminaire is seen or the rating is below; infinite where the luminaires stand before utter darkness.
 pub(super) fn ratings(
     scene: &Scene,
@@ -26,7 +30,7 @@ pub(super) fn ratings(
     execution: Execution,
     watch: &mut Watch<'_>,
     diagnostics: &mut Vec<Diagnostic>,
-) -> Result<Vec<(Reading, Coverage)>> {
+) -> Result<Vec<Rating>> {
     let eyes = meters.iter().map(|meter| Eye::new(meter)).collect::<Result<Vec<_>>>()?;
     let probes = meters.iter().map(|meter| Probe::new(meter)).collect::<Result<Vec<_>>>()?;
     let compiled = Arc::new(compile(scene, watch.previous, watch.cancel)?);
@@ -40,8 +44,11 @@ pub(super) fn ratings(
         let background =
             Reading { value: (all.value - direct.value).max(0.0), standard_error: all.standard_error.hypot(direct.standard_error) };
         let mut coverage = Coverage::default();
-        let sum = luminaires.iter().map(|luminaire| eye.glare(luminaire, &compiled, &mut coverage)).sum();
-        (rating(sum, &background), coverage)
+        let shares: Vec<Share> = luminaires.iter().map(|luminaire| eye.glare(luminaire, &compiled, &mut coverage)).collect();
+        let tabular: Option<f64> = shares.iter().map(|share| share.tabular).sum();
+        let count = shares.iter().filter(|share| share.is_small).count();
+        let small = SmallSources { count, tabular: tabular.map(|sum| rating(sum, &background)) };
+        (rating(shares.iter().map(|share| share.sum).sum(), &background), coverage, small)
     });
     Ok(rated.collect())
 }
