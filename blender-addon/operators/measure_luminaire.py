@@ -7,7 +7,7 @@ from pathlib import Path
 import bpy
 import gonio
 import numpy as np
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 from mathutils import Matrix
 
 from .. import goniophotometer, measuring, report
@@ -78,6 +78,12 @@ class GONIO_OT_measure_luminaire(Beside, bpy.types.Operator):
         default=200.0,
         min=0.01,
         max=1e6,
+    )
+    seed: IntProperty(
+        name="Seed",
+        description="Seed of the random numbers: another one gives another measurement of the same luminaire, which tells what noise is",
+        default=0,
+        min=0,
     )
     watts: FloatProperty(
         name="Power",
@@ -157,7 +163,7 @@ class GONIO_OT_measure_luminaire(Beside, bpy.types.Operator):
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
-        for name in ("kind", "c_step", "g_step", "symmetry", "error", "rays", "watts", "use_lamp"):
+        for name in ("kind", "c_step", "g_step", "symmetry", "error", "rays", "seed", "watts", "use_lamp"):
             layout.prop(self, name)
 
     def _luminaire(self, context):
@@ -178,6 +184,8 @@ class GONIO_OT_measure_luminaire(Beside, bpy.types.Operator):
             "g_step": round(degrees(self.g_step), 4),
             "error": 0.01 * self.error,
             "rays": int(1e6 * self.rays),
+            "symmetry": self.symmetry.lower(),
+            "seed": self.seed,
             "threads": render.threads if render.threads_mode == "FIXED" else 0,
         }
 

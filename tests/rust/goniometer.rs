@@ -18,6 +18,7 @@ fn options(rays: u64) -> Options {
         frame: Frame::default(),
         angles: Angles::regular(45.0, 15.0).expect("steps that fit"),
         stop: Stop { error: 0.0, rays, time: None },
+        symmetry: None,
         rays: Vec::new(),
         screen: None,
         seed: 0,
@@ -61,7 +62,7 @@ fn a_disk_follows_lamberts_law() {
     check(&reading, |gamma| if gamma < 90.0 { peak * gamma.to_radians().cos() } else { 0.0 }, 0.012);
     assert!((reading.fluxes.escaped.value / (PI * peak) - 1.0).abs() < 1e-3);
     let size = reading.opening.size();
-    assert!(reading.opening.round && (size[0] / (2.0 * radius) - 1.0).abs() < 0.03 && size[2] == 0.0, "{:?}", reading.opening);
+    assert!(reading.opening.is_round() && (size[0] / (2.0 * radius) - 1.0).abs() < 0.03 && size[2] == 0.0, "{:?}", reading.opening);
 }
 
 #[test]

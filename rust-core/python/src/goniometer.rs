@@ -3,7 +3,7 @@
 use crate::{
     buffer::doubles,
     error::{exception, setting},
-    luminaire_reading::LuminaireReading,
+    luminaire_reading::{LuminaireReading, symmetry_of},
     scene::Scene,
     watched::{tell_rays, watched},
 };
@@ -59,11 +59,11 @@ impl Source {
 /// path of the prim that is the `luminaire`. γ = 0 looks along `down` and C0 along `c0` in the luminaire's own axes.
 ///
 /// c_step, g_step: degrees from plane to plane and from γ to γ, or `gammas` in degrees; error: relative standard error of the peak and of the
-/// flux at which it stops, 0 for all `rays`; time_limit: seconds; screen: distance below the luminaire, width along C0, height along C90, and
+/// flux at which it stops, 0 for all `rays`; time_limit: seconds; symmetry: that of the files, by whose averaged planes it stops, as `write` takes it; screen: distance below the luminaire, width along C0, height along C90, and
 /// columns and rows, on which illuminance is measured too; progress: a function of rays, their most, the peak's relative error or None, and
 /// seconds, which is called every 50 ms and ends the measurement by returning False.
 #[pyfunction]
-#[pyo3(signature = (source, luminaire = None, *, frame = None, down = [0.0, 0.0, -1.0], c0 = [1.0, 0.0, 0.0], c_step = 15.0, g_step = 5.0, gammas = None, error = 0.01, rays = 200_000_000, time_limit = None, screen = None, seed = 0, threads = 0, progress = None))]
+#[pyo3(signature = (source, luminaire = None, *, frame = None, down = [0.0, 0.0, -1.0], c0 = [1.0, 0.0, 0.0], c_step = 15.0, g_step = 5.0, gammas = None, error = 0.01, rays = 200_000_000, time_limit = None, symmetry = "auto", screen = None, seed = 0, threads = 0, progress = None))]
 #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
 pub(crate) fn goniometer(
     py: Python<'_>,
@@ -78,6 +78,7 @@ pub(crate) fn goniometer(
     error: f64,
     rays: u64,
     time_limit: Option<f64>,
+    symmetry: &str,
     screen: Option<Vec<f64>>,
     seed: u32,
     threads: u32,
@@ -96,6 +97,7 @@ pub(crate) fn goniometer(
         frame: Frame::of(&placed, down, c0, &Origin::new(&name)).map_err(exception)?,
         angles,
         stop: Stop { error, rays, time },
+        symmetry: symmetry_of(symmetry)?,
         rays: Vec::new(),
         screen: screen.map(|numbers| screen_of(&numbers)).transpose()?,
         seed,
@@ -104,7 +106,7 @@ pub(crate) fn goniometer(
     let reading = run(py, &scene, &options, progress.as_ref())?;
     diagnostics.extend(reading.diagnostics.iter().cloned());
     let name = name.rsplit('/').next().unwrap_or_default().to_owned();
-    Ok(LuminaireReading { reading, name, diagnostics })
+    Ok(LuminaireReading { reading, name, symmetry: options.symmetry, diagnostics })
 }
 
 fn screen_of(numbers: &[f64]) -> PyResult<Screen> {

@@ -23,6 +23,7 @@ use std::{io::Write, path::PathBuf};
 pub(crate) struct LuminaireReading {
     pub(crate) reading: goniometer::Reading,
     pub(crate) name: String,
+    pub(crate) symmetry: Option<Symmetry>,
     pub(crate) diagnostics: Vec<Diagnostic>,
 }
 
@@ -88,25 +89,41 @@ impl LuminaireReading {
     fn light_output_ratio(&self) -> Option<Reading> {
         self.reading.light_output_ratio().map(with_error)
     }
-    /// The greatest intensity in cd.
+    /// Of the flux that leaves, what goes above the horizontal plane, lm.
+    #[getter]
+    fn flux_up(&self) -> Reading {
+        with_error(self.reading.fluxes.up)
+    }
+    /// The greatest intensity in cd, with the symmetry of the files. It is chosen by one half of the rays and told by the other, so that noise does not
+    /// raise it.
     #[getter]
     fn peak(&self) -> Reading {
-        with_error(self.reading.peak().1)
+        with_error(self.reading.peak)
     }
     /// C and γ of the greatest intensity, degrees.
     #[getter]
     fn peak_direction(&self) -> (f64, f64) {
-        self.reading.direction(self.reading.peak().0).into()
+        self.reading.peak_direction.into()
     }
-    /// Least and greatest coordinates of where light leaves, in the luminaire's axes, metres.
+    /// Least and greatest coordinates of where light leaves, in the luminaire's axes, metres: of an open reflector its mouth.
     #[getter]
     fn opening(&self) -> ([f64; 3], [f64; 3]) {
         self.reading.opening.bounds.into()
     }
+    /// The same of each part that shines apart from the others.
+    #[getter]
+    fn opening_parts(&self) -> Vec<([f64; 3], [f64; 3])> {
+        self.reading.opening.parts.iter().map(|part| (*part).into()).collect()
+    }
+    /// Luminous square metres that are seen from below, or from above where that is more.
+    #[getter]
+    fn opening_area(&self) -> f64 {
+        self.reading.opening.area
+    }
     /// Whether the opening is round.
     #[getter]
     fn round(&self) -> bool {
-        self.reading.opening.round
+        self.reading.opening.is_round()
     }
     /// Least and greatest coordinates of all that belongs to the luminaire, in its axes, metres.
     #[getter]
@@ -148,20 +165,20 @@ impl LuminaireReading {
         self.reading.csv()
     }
     /// Writes EULUMDAT (.ldt), LM-63-2019 (.ies) or TM-33 (.xml). symmetry: "auto" (the highest that the errors bear out), "none", "rotational", "c0",
-    /// "c90" or "quadrants", whose equal intensities are averaged.
-    #[pyo3(signature = (path, *, symmetry = "auto", name = None, manufacturer = "", watts = None))]
+    /// "c90" or "quadrants", whose equal intensities are averaged; without it that of the measurement.
+    #[pyo3(signature = (path, *, symmetry = None, name = None, manufacturer = "", watts = None))]
     fn write(
         &self,
         py: Python<'_>,
         path: PathBuf,
-        symmetry: &str,
+        symmetry: Option<&str>,
         name: Option<String>,
         manufacturer: &str,
         watts: Option<f64>,
     ) -> PyResult<()> {
         let name = name.unwrap_or_else(|| self.name.clone());
         let head = MeasurementHead { name, manufacturer: manufacturer.to_owned(), ..MeasurementHead::default() };
-        let symmetry = symmetry_of(symmetry)?;
+        let symmetry = symmetry.map_or(Ok(self.symmetry), symmetry_of)?;
         let reduced = self.reading.measurement(head, watts).reduced(symmetry).map_err(|error| setting("symmetry", error.problem))?;
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
         let bytes = match ending.as_str() {
@@ -173,7 +190,7 @@ impl LuminaireReading {
         py.detach(|| write_atomically(&path, true, |file| file.write_all(&bytes(&reduced)))).map_err(exception)
     }
     fn __repr__(&self) -> String {
-        let (flux, peak) = (self.reading.fluxes.escaped.value, self.reading.peak().1.value);
+        let (flux, peak) = (self.reading.fluxes.escaped.value, self.reading.peak.value);
         format!("<gonio.LuminaireReading: {flux:.1} lm, {peak:.1} cd at most>")
     }
 }
@@ -184,7 +201,7 @@ impl LuminaireReading {
     }
 }
 
-fn symmetry_of(name: &str) -> PyResult<Option<Symmetry>> {
+pub(crate) fn symmetry_of(name: &str) -> PyResult<Option<Symmetry>> {
     Ok(match name {
         "auto" => None,
         "none" => Some(Symmetry::None),

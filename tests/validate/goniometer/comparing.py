@@ -76,6 +76,8 @@ def compare(name: str, file: Path, points: bool = False) -> Deviation:
         row = kept.candela[0, ours] if points else kept.cell_means(polar)[theirs]
         wanted, error = numpy.broadcast_to(row, found.shape), numpy.broadcast_to(kept.error[0, ours], found.shape)
     bright = (wanted > BRIGHT * kept.candela.max()) & (error < SURE * wanted)
+    # The horizon's value is the harmonic mean of its zone's halves below and above.
+    bright &= points | (numpy.abs(kept.polar[ours] - 90.0) > 1e-3)
     off = numpy.where(bright, found / numpy.where(bright, wanted, 1.0) - 1.0, 0.0)
     i, j = numpy.unravel_index(numpy.abs(off).argmax(), off.shape)
     mean = float(off[bright].mean())

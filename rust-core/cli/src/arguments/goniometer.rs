@@ -21,7 +21,8 @@ pub(crate) struct GoniometerOptions {
     /// The luminaire: this prim and all below it; the rest of the stage is left out.
     #[arg(long, short = 'l', value_name = "PRIMPATH")]
     pub(crate) luminaire: String,
-    /// Write the luminaire as EULUMDAT, LM-63-2019 or TM-33; may be given several times.
+    /// Write the luminaire as EULUMDAT, LM-63-2019 or TM-33; may be given several times. Its luminous opening is where light leaves: the mouth of an open
+    /// reflector, the sides that shine; of several parts one with their luminous area.
     #[arg(long, short = 'o', value_name = "FILE.ldt|FILE.ies|FILE.xml")]
     pub(crate) output: Vec<PathBuf>,
     /// The frame to measure.
@@ -30,16 +31,16 @@ pub(crate) struct GoniometerOptions {
     /// Degrees from C plane to C plane; 360 is divided by it.
     #[arg(long = "c-step", value_name = "DEGREES", default_value_t = 15.0)]
     pub(crate) c_step: f64,
-    /// Degrees from γ to γ, from 0 to 180; 180 is divided by it.
+    /// Degrees from γ to γ, from 0 to 180; 180 is divided by it. Steps that have 90 among them keep light below the horizon apart from light above it.
     #[arg(long = "g-step", value_name = "DEGREES", default_value_t = 5.0, conflicts_with = "gammas")]
     pub(crate) g_step: f64,
     /// The γ in degrees in its place: numbers and ranges FIRST:LAST:STEP, separated by commas.
     #[arg(long, value_name = "LIST")]
     pub(crate) gammas: Option<String>,
-    /// Which planes are alike: found by the errors, or forced; their intensities are averaged.
+    /// Which planes are alike: found by the errors, or forced; their intensities are averaged, and the measurement ends by the averages' error.
     #[arg(long, value_enum, default_value_t = SymmetryChoice::Auto)]
     pub(crate) symmetry: SymmetryChoice,
-    /// Stop at this standard error of the peak's intensity and of the flux: 1%, 0.01; 0 traces all rays.
+    /// Stop at this standard error of the peak's intensity (with the files' symmetry) and of the flux: 1%, 0.01; 0 traces all rays.
     #[arg(long, value_name = "SHARE", default_value = "1%")]
     pub(crate) error: String,
     /// Most rays: 500000, 2e9, 200M.

@@ -5,7 +5,7 @@ use super::{
     ugr,
 };
 use crate::arguments::PhotometryOptions;
-use gonio_formats::photometry::{Figures, Goniogram, LampSet, UgrTable};
+use gonio_formats::photometry::{Aside, Figures, Goniogram, LampSet, UgrTable};
 use serde_json::{Value, json};
 
 /// Everything in one object.
@@ -28,6 +28,7 @@ pub(super) fn as_json(options: &PhotometryOptions, goniogram: &Goniogram, figure
         "peak_direction_deg": figures.peak_direction,
         "beam_angle_deg": figures.beam.map(|spread| spread.angle()),
         "field_angle_deg": figures.field.map(|spread| spread.angle()),
+        "beam_aside": figures.aside.as_ref().map(aside_json),
         "cie_flux_codes": goniogram.flux_codes().map(percents),
         "bug": zones.rating(goniogram.is_square()).to_string(),
         "zones_lm": json!({ "forward": zones.forward, "back": zones.back, "up": zones.up, "front_deg": front }),
@@ -47,6 +48,11 @@ pub(super) fn as_json(options: &PhotometryOptions, goniogram: &Goniogram, figure
         "header": goniogram.header.iter().map(|line| [&line.keyword, &line.text]).collect::<Vec<_>>(),
         "warnings": goniogram.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
     })
+}
+
+/// A beam whose axis is in neither C0–C180 nor C90–C270.
+pub(crate) fn aside_json(aside: &Aside) -> Value {
+    json!({ "c_deg": aside.c, "beam_angle_deg": aside.beam.angle(), "field_angle_deg": aside.field.angle() })
 }
 
 fn lamps_json(set: &LampSet) -> Value {

@@ -4,7 +4,8 @@ mod json;
 mod text;
 pub(super) mod ugr;
 
-pub(super) use text::{as_text, symmetry_name};
+pub(super) use json::aside_json;
+pub(super) use text::{as_text, aside, opening, shape_name, symmetry_name};
 
 use super::{
     arguments::{PhotometryOptions, SymmetryName},

@@ -1,6 +1,6 @@
 //! What a luminaire's file holds, for readers.
 
-use gonio_formats::photometry::{Figures, Goniogram, LampSet, Opening, OpeningShape, PhotometricType, Spread, Symmetry, Tilt};
+use gonio_formats::photometry::{Aside, Figures, Goniogram, LampSet, Opening, OpeningShape, PhotometricType, Spread, Symmetry, Tilt};
 
 /// CIE flux codes as they are written: whole per cent.
 pub(super) fn percents(codes: [f64; 5]) -> [i64; 5] {
@@ -43,6 +43,7 @@ pub(crate) fn as_text(goniogram: &Goniogram, figures: &Figures, front: Option<f6
     lines.push(format!("peak: {:.1} cd at C {c}°, γ {gamma}°", figures.peak));
     lines.push(format!("beam angle (50 %): {}", spreads(&figures.beam)));
     lines.push(format!("field angle (10 %): {}", spreads(&figures.field)));
+    lines.extend(figures.aside.as_ref().map(aside));
     lines.extend(classes(goniogram, front));
     lines.push(format!("opening: {}", opening(&goniogram.opening)));
     for (index, set) in goniogram.lamp_sets.iter().enumerate() {
@@ -60,10 +61,23 @@ fn spreads([c0, c90]: &[Spread; 2]) -> String {
     format!("{:.1}° in C0–C180, {:.1}° in C90–C270{about}", c0.angle(), c90.angle())
 }
 
-fn opening(opening: &Opening) -> String {
+/// A beam whose axis is in none of the planes that stand above.
+pub(crate) fn aside(aside: &Aside) -> String {
+    let [c, across] = [aside.c, (aside.c + 180.0).rem_euclid(360.0)];
+    let [beam, field] = [aside.beam, aside.field].map(|spread| spread.angle());
+    format!("the beam's axis lies in neither plane: {beam:.1}° (50 %) and {field:.1}° (10 %) in C{c}–C{across}")
+}
+
+/// The opening of a file.
+pub(crate) fn opening(opening: &Opening) -> String {
     let [x, y, z] = opening.size;
     match opening.shape {
         OpeningShape::Point => shape_name(opening.shape).to_owned(),
+        OpeningShape::Box if opening.heights.iter().any(|height| *height != z) => {
+            let [c0, c90, c180, c270] = opening.heights;
+            let sides = format!("{c0:.3}, {c90:.3}, {c180:.3}, {c270:.3} m high towards C0, C90, C180, C270");
+            format!("{}, {x:.3} m along C0, {y:.3} m along C90, {sides}", shape_name(opening.shape))
+        }
         shape => format!("{}, {x:.3} m along C0, {y:.3} m along C90, {z:.3} m high", shape_name(shape)),
     }
 }
@@ -100,7 +114,7 @@ pub(crate) fn symmetry_name(symmetry: Symmetry) -> &'static str {
     }
 }
 
-pub(super) fn shape_name(shape: OpeningShape) -> &'static str {
+pub(crate) fn shape_name(shape: OpeningShape) -> &'static str {
     match shape {
         OpeningShape::Point => "point",
         OpeningShape::Rectangle => "rectangle",

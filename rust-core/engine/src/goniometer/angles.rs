@@ -7,6 +7,10 @@ use std::f64::consts::{PI, TAU};
 
 /// Most directions.
 pub const MOST_DIRECTIONS: usize = 4_000_000;
+/// γ of what is level.
+const HORIZON: f64 = 90.0;
+/// Sines of elevations that are level: rays' directions come with rounding.
+pub(super) const LEVEL: f32 = 1e-6;
 /// The least step, degrees: rays' directions are in single precision.
 const LEAST_STEP: f64 = 0.01;
 
@@ -66,11 +70,16 @@ impl Angles {
 }
 
 /// Cells about the directions: their borders lie half way between them, and at γ = 0 and 180 all planes share a cap. Where γ ends before it,
-/// the last cell reaches as far beyond its direction as on the other side.
+/// the last cell reaches as far beyond its direction as on the other side. The cells of γ = 90 have two halves, one below the horizon and one above:
+/// luminaires that send nothing up have a jump there, or a bend.
 #[derive(Clone, Debug)]
 pub(super) struct Cells {
     planes: usize,
     gammas: usize,
+    /// Cells of a plane: one a γ, and two of the horizon.
+    rows: usize,
+    /// The number of γ = 90.
+    horizon: Option<usize>,
     /// Cosines of the borders, descending.
     borders: Vec<f64>,
     /// The borders of γ and of the planes by their [`diamond_angle`]: exact at the poles, as cosines are not in single precision.
@@ -79,6 +88,9 @@ pub(super) struct Cells {
     /// Whether the first and the last are caps.
     caps: [bool; 2],
 }
+
+/// A cell's number, and its solid angle in sr.
+pub(super) type Cell = (usize, f64);
 
 /// No cell.
 pub(super) const OUTSIDE: u32 = u32::MAX;
@@ -90,14 +102,25 @@ impl Cells {
         let first = (gamma[0] - 0.5 * (gamma[1] - gamma[0])).max(0.0);
         let end = (gamma[last] + 0.5 * (gamma[last] - gamma[last - 1])).min(180.0);
         let between = gamma.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
-        let borders: Vec<f64> = std::iter::once(first).chain(between).chain([end]).collect();
+        let mut borders: Vec<f64> = std::iter::once(first).chain(between).chain([end]).collect();
+        let horizon = gamma.iter().position(|gamma| (gamma - HORIZON).abs() < 1e-9);
+        if let Some(horizon) = horizon {
+            borders.insert(horizon + 1, HORIZON);
+        }
         let planes = angles.c.len();
         let beyond = (0..planes).map(|plane| (plane as f64 + 0.5) * 360.0 / planes as f64);
         // The very pole of the zenith belongs to the last cell.
-        let before_end = borders.iter().map(|angle| if *angle == 180.0 { f32::MAX } else { diamond_of(*angle) });
+        let before_end = borders.iter().map(|angle| match *angle {
+            180.0 => f32::MAX,
+            // Level light goes down, also with what rounding makes of it.
+            HORIZON => 1.0 + LEVEL,
+            angle => diamond_of(angle),
+        });
         Self {
             planes,
             gammas: gamma.len(),
+            rows: borders.len() - 1,
+            horizon,
             by_gamma: Division::new(before_end.collect(), [0.0, 2.0]),
             by_plane: Division::new(beyond.map(diamond_of).collect(), [0.0, 4.0]),
             borders: borders.iter().map(|angle| angle.to_radians().cos()).collect(),
@@ -107,7 +130,7 @@ impl Cells {
 
     /// How many there are, those that caps leave empty included.
     pub(super) fn len(&self) -> usize {
-        self.planes * self.gammas
+        self.planes * self.rows
     }
 
     /// The cells that hold directions of the frame, of any length; [`OUTSIDE`] of the angles.
@@ -116,34 +139,37 @@ impl Cells {
         let Vec3 { x, y, z } = direction;
         let l = x.lanes();
         let not_below = self.by_gamma.find(diamond_angle(-z, x.mul_add(x, y * y).sqrt()));
-        let inside = not_below.ne(0) & not_below.lt(self.gammas as u32 + 1);
-        let gamma = not_below - 1;
+        let rows = self.rows as u32;
+        let inside = not_below.ne(0) & not_below.lt(rows + 1);
+        let row = not_below - 1;
         let plane = self.by_plane.find(diamond_angle(x, y));
-        let cap = (gamma.eq(0) & l.m(self.caps[0])) | (gamma.eq(self.gammas as u32 - 1) & l.m(self.caps[1]));
+        let cap = (row.eq(0) & l.m(self.caps[0])) | (row.eq(rows - 1) & l.m(self.caps[1]));
         let plane = plane.keep_if(plane.lt(self.planes as u32).and_not(cap));
-        inside.select(plane * self.gammas as u32 + gamma, l.u(OUTSIDE))
+        inside.select(plane * rows + row, l.u(OUTSIDE))
     }
 
-    /// The cell of a direction by its angles' numbers; a cap is the first plane's.
-    pub(super) fn index(&self, plane: usize, gamma: usize) -> usize {
+    /// The cells of a direction by its angles' numbers with their solid angles in sr: one, or the two about the horizon, the lower one first. A cap is
+    /// the first plane's.
+    pub(super) fn of(&self, plane: usize, gamma: usize) -> (Cell, Option<Cell>) {
         let plane = if self.is_cap(gamma) { 0 } else { plane };
-        plane * self.gammas + gamma
+        let width = if self.is_cap(gamma) { TAU } else { TAU / self.planes as f64 };
+        let cell = |row: usize| (plane * self.rows + row, width * (self.borders[row] - self.borders[row + 1]));
+        let first = gamma + usize::from(self.horizon.is_some_and(|horizon| gamma > horizon));
+        (cell(first), (self.horizon == Some(gamma)).then(|| cell(first + 1)))
     }
 
     fn is_cap(&self, gamma: usize) -> bool {
         self.caps[0] && gamma == 0 || self.caps[1] && gamma == self.gammas - 1
     }
 
-    /// Solid angle of the cells of a γ, sr.
-    pub(super) fn solid_angle(&self, gamma: usize) -> f64 {
-        let width = if self.is_cap(gamma) { TAU } else { TAU / self.planes as f64 };
-        width * (self.borders[gamma] - self.borders[gamma + 1])
-    }
-
     /// Solid angle of all cells, sr.
     #[cfg(test)]
     fn total(&self) -> f64 {
-        (0..self.gammas).map(|gamma| self.solid_angle(gamma) * if self.is_cap(gamma) { 1.0 } else { self.planes as f64 }).sum()
+        let of = |gamma: usize| {
+            let (cell, above) = self.of(0, gamma);
+            (cell.1 + above.map_or(0.0, |cell| cell.1)) * if self.is_cap(gamma) { 1.0 } else { self.planes as f64 }
+        };
+        (0..self.gammas).map(of).sum()
     }
 }
 
@@ -180,7 +206,7 @@ mod tests {
             let cells = Cells::new(&angles);
             for (plane, c) in angles.c.iter().enumerate() {
                 for (g, gamma) in angles.gamma.iter().enumerate() {
-                    assert_eq!(find(&cells, *c, *gamma), cells.index(plane, g) as u32, "{c} {gamma}");
+                    assert_eq!(find(&cells, *c, *gamma), cells.of(plane, g).0.0 as u32, "{c} {gamma}");
                 }
             }
             assert!((cells.total() - 4.0 * PI).abs() < 1e-9);
@@ -193,8 +219,24 @@ mod tests {
         let gammas = 18_000;
         for near in [0.0049, 0.0051, 0.0149, 0.0151, 12.3449, 12.3451] {
             let number = (near * 100.0_f64).round() as u32;
-            assert_eq!([find(&cells, 0.0, near), find(&cells, 0.0, 180.0 - near)], [number, gammas - number], "{near}");
+            // Above the horizon cells are one farther.
+            assert_eq!([find(&cells, 0.0, near), find(&cells, 0.0, 180.0 - near)], [number, gammas + 1 - number], "{near}");
         }
+    }
+
+    #[test]
+    fn the_horizon_has_two_halves() {
+        let cells = Cells::new(&Angles::regular(90.0, 5.0).expect("steps that fit"));
+        let ((below, angle), Some((above, other))) = cells.of(1, 18) else { panic!("γ = 90 is the horizon") };
+        assert!((angle - other).abs() < 1e-12);
+        for (gamma, cell) in [(87.6, below), (89.99, below), (90.0, below), (90.01, above), (92.4, above)] {
+            assert_eq!(find(&cells, 90.0, gamma), cell as u32, "{gamma}");
+        }
+        assert_eq!([cells.of(1, 17).1, cells.of(1, 19).1], [None, None]);
+        assert_eq!(find(&cells, 90.0, 92.6), cells.of(1, 19).0.0 as u32);
+        // Without an angle there nothing is divided.
+        let other = Cells::new(&Angles { c: vec![0.0], gamma: vec![0.0, 85.0, 95.0, 180.0] }.checked().expect("fine"));
+        assert_eq!(find(&other, 0.0, 89.0), 1);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! What was measured.
 
-use super::{angles::Angles, colour, extent::Opening, frame::Frame, screen::Screen};
+use super::{angles::Angles, colour, frame::Frame, opening::Opening, screen::Screen};
 use crate::{error::Diagnostic, light_paths::Channels, transport::Statistics};
 use gonio_formats::photometry::measured::{Measurement, MeasurementHead};
 use std::time::Duration;
@@ -21,17 +21,30 @@ impl Value {
     }
 }
 
-/// Where the light went, in lm. The last three add up to the first.
+/// Where the light went, in lm. What left, what was absorbed and what was cut off add up to what the sources sent.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Fluxes {
     /// What the sources sent.
     pub emitted: Value,
     /// What left the luminaire.
     pub escaped: Value,
+    /// Of what left, that which goes above the horizontal plane.
+    pub up: Value,
     /// What surfaces and solids took.
     pub absorbed: Value,
     /// What was still under way when its paths were cut off.
     pub cut_off: Value,
+}
+
+impl Fluxes {
+    /// The same with nothing absorbed where noise makes less than that of it: no more leaves than was sent. Standard errors stay.
+    pub(super) fn bounded(mut self) -> Self {
+        let missing = (-self.absorbed.value).max(0.0);
+        self.absorbed.value += missing;
+        self.escaped.value = (self.escaped.value - missing).max(0.0);
+        self.up.value = self.up.value.clamp(0.0, self.escaped.value);
+        self
+    }
 }
 
 /// Illuminance on a screen.
@@ -58,6 +71,12 @@ pub struct Reading {
     pub intensities: Vec<f64>,
     /// Their standard errors in cd.
     pub errors: Vec<f64>,
+    /// The same intensities by the batches of even and of odd numbers.
+    pub halves: [Vec<f64>; 2],
+    /// The greatest intensity in cd, by the symmetry of the files: noise does not raise it.
+    pub peak: Value,
+    /// C and γ of it in degrees.
+    pub peak_direction: [f64; 2],
     /// Where the light went.
     pub fluxes: Fluxes,
     /// What left, R, G, B.
@@ -81,12 +100,6 @@ pub struct Reading {
 }
 
 impl Reading {
-    /// The greatest intensity and its place among the directions.
-    pub fn peak(&self) -> (usize, Value) {
-        let greatest = (0..self.intensities.len()).reduce(|a, b| if self.intensities[b] > self.intensities[a] { b } else { a });
-        greatest.map_or((0, Value::default()), |i| (i, Value { value: self.intensities[i], error: self.errors[i] }))
-    }
-
     /// C and γ in degrees of a direction by its place.
     pub fn direction(&self, place: usize) -> [f64; 2] {
         let gammas = self.angles.gamma.len();
@@ -96,7 +109,7 @@ impl Reading {
     /// The luminaire's flux over that of its sources; nothing where these send none.
     pub fn light_output_ratio(&self) -> Option<Value> {
         let [emitted, escaped] = [self.fluxes.emitted.value, self.fluxes.escaped.value];
-        (emitted > 0.0).then(|| Value { value: escaped / emitted, error: self.fluxes.escaped.error / emitted })
+        (emitted > 0.0).then(|| Value { value: (escaped / emitted).min(1.0), error: self.fluxes.escaped.error / emitted })
     }
 
     /// Colour temperature in K of all that left; nothing where the light is white or of no black body's colour.
@@ -108,7 +121,7 @@ impl Reading {
     /// peak differ from the whole's by more than 0.003.
     pub fn varies_in_colour(&self) -> bool {
         let Some(whole) = colour::chromaticity(self.escaped_rgb) else { return false };
-        let least = 0.1 * self.peak().1.value;
+        let least = 0.1 * self.peak.value;
         let of = |i: usize| colour::chromaticity(self.rgb[i]).map_or(0.0, |xy| (xy[0] - whole[0]).hypot(xy[1] - whole[1]));
         (0..self.rgb.len()).any(|i| self.intensities[i] > least && of(i) > 0.003)
     }
@@ -124,8 +137,9 @@ impl Reading {
             source_flux: self.fluxes.emitted.value,
             flux: self.fluxes.escaped.value,
             flux_error: self.fluxes.escaped.error,
-            opening: self.opening.size(),
-            round: self.opening.round,
+            flux_up: Some([self.fluxes.up.value, self.fluxes.up.error]),
+            halves: Some(self.halves.clone()),
+            opening: self.opening.shape,
             body: Some(body),
             watts,
             colour_temperature: self.colour_temperature(),

@@ -1,17 +1,20 @@
 //! A measurement under way: rounds of batches until it is exact enough, and the reading at the end.
 
 use super::{
-    Options, Reading,
+    Opening, Options, Reading,
+    angles::Cell,
+    opening::Departure,
     reading::{Fluxes, ScreenReading, Value},
     shining::{Sources, power},
     tally::{Flux, Instrument, Tally},
 };
 use crate::{
     compile::{Bounds, CompiledScene},
-    error::Result,
+    error::{Error, Result},
     light_paths::{Channels, Estimate, Job, Progress, Watch, trace_batches},
     transport::{Arriving, Emission, LIGHT_BATCH, LightTracer, Statistics, Transport, Wanted},
 };
+use gonio_formats::photometry::measured::Measurement;
 use std::{sync::atomic::AtomicBool, time::Instant};
 
 /// A measurement under way.
@@ -66,9 +69,11 @@ impl<'a> Run<'a> {
                 traced = round.start + done;
             }
             self.batches = traced;
-            error = Some(self.peak().relative_error());
+            self.parts.iter().for_each(|(_, tally)| tally.departures().settle());
+            let peak = self.symmetric_peak()?.0;
+            error = Some(peak.relative_error());
             // Who asks for no error asks for all rays.
-            self.converged = if stop.error > 0.0 { self.is_exact_enough() } else { traced == stop.batches() };
+            self.converged = if stop.error > 0.0 { self.is_exact_enough(&peak) } else { traced == stop.batches() };
             if self.converged || traced < round.end {
                 break;
             }
@@ -96,53 +101,90 @@ impl<'a> Run<'a> {
         self.sum(|tally| tally.flux(flux, self.batches))
     }
 
-    /// Intensity at angles by their numbers.
-    fn intensity(&self, plane: usize, gamma: usize) -> Estimate {
-        let cell = self.instrument.cells.index(plane, gamma);
-        self.sum(|tally| tally.direction(cell, self.batches)).scaled(1.0 / self.instrument.cells.solid_angle(gamma))
+    /// The flux by direction that a tally tells of cells, as intensities at angles by their numbers.
+    fn intensity(&self, plane: usize, gamma: usize, flux: impl Fn(usize) -> Estimate) -> Estimate {
+        let (below, above) = self.instrument.cells.of(plane, gamma);
+        let of = |(cell, solid_angle): Cell| flux(cell).scaled(1.0 / solid_angle);
+        above.map_or_else(|| of(below), |above| at_horizon(&of(below), &of(above)))
     }
 
-    fn intensities(&self) -> impl Iterator<Item = Estimate> + '_ {
+    fn all(&self, flux: impl Fn(usize) -> Estimate) -> Vec<Estimate> {
         let gammas = self.options.angles.gamma.len();
-        (0..self.options.angles.c.len() * gammas).map(move |i| self.intensity(i / gammas, i % gammas))
+        (0..self.options.angles.c.len() * gammas).map(|i| self.intensity(i / gammas, i % gammas, &flux)).collect()
     }
 
-    fn peak(&self) -> Estimate {
-        self.intensities().reduce(|a, b| if b.luminance() > a.luminance() { b } else { a }).unwrap_or_default()
+    fn intensities(&self) -> Vec<Estimate> {
+        self.all(|cell| self.sum(|tally| tally.direction(cell, self.batches)))
     }
 
-    fn is_exact_enough(&self) -> bool {
+    /// Luminous intensities by the batches of even and of odd numbers.
+    fn halves(&self) -> [Vec<f64>; 2] {
+        let odd = |tally: &Tally<'a>, cell: usize| tally.odd_direction(cell, self.batches);
+        // Their number is even but for the last round.
+        let share = (self.batches / 2).max(1) as f64 / self.batches as f64;
+        let even = |tally: &Tally<'a>, cell: usize| {
+            let (all, odd) = (tally.direction(cell, self.batches).mean, odd(tally, cell));
+            [0, 1, 2].map(|k| ((all[k] - share * odd[k]) / (1.0 - share)).max(0.0))
+        };
+        let half = |mean: &dyn Fn(&Tally<'a>, usize) -> Channels| {
+            let flux = |cell: usize| self.sum(|tally| Estimate { mean: mean(tally, cell), variance: 0.0 });
+            self.all(flux).iter().map(Estimate::luminance).collect()
+        };
+        [half(&even), half(&odd)]
+    }
+
+    /// The greatest intensity as files will have it, by the symmetry that they will have, and its direction.
+    fn symmetric_peak(&self) -> Result<(Value, [f64; 2])> {
+        let estimates = self.intensities();
+        let [emitted, escaped] = [Flux::Emitted, Flux::Escaped].map(|flux| self.flux(flux));
+        let measurement = Measurement {
+            planes: self.options.angles.c.clone(),
+            gammas: self.options.angles.gamma.clone(),
+            intensities: estimates.iter().map(Estimate::luminance).collect(),
+            errors: estimates.iter().map(Estimate::error).collect(),
+            halves: Some(self.halves()),
+            source_flux: emitted.luminance(),
+            flux: escaped.luminance().min(emitted.luminance()),
+            flux_error: escaped.error(),
+            ..Measurement::default()
+        };
+        let reduced = measurement.reduced(self.options.symmetry).map_err(|error| Error::setting("symmetry", error.problem))?;
+        let figures = reduced.figures();
+        Ok((Value { value: figures.peak.value, error: figures.peak.error }, figures.peak_direction))
+    }
+
+    fn is_exact_enough(&self, peak: &Value) -> bool {
         let error = self.options.stop.error;
         let escaped = self.flux(Flux::Escaped);
         // Where nothing leaves there is nothing to wait for.
         let closed = escaped.mean == [0.0; 3];
-        closed || self.peak().relative_error() <= error && escaped.relative_error() <= error
+        closed || peak.relative_error() <= error && escaped.relative_error() <= error
     }
 
-    pub(super) fn reading(&self, body: &Bounds) -> Reading {
-        let estimates: Vec<Estimate> = self.intensities().collect();
+    pub(super) fn reading(&self, body: &Bounds) -> Result<Reading> {
+        let estimates = self.intensities();
         let value = |estimate: Estimate| Value { value: estimate.luminance(), error: estimate.error() };
         let flux = |flux: Flux| value(self.flux(flux));
-        let extent = |cell: usize| {
-            self.parts.iter().fold([0.0; 3], |sum: Channels, (_, tally)| {
-                let part = tally.extent(cell, self.batches);
-                [0, 1, 2].map(|k| sum[k] + part[k])
-            })
-        };
-        Reading {
+        let departures: Vec<Departure> = self.parts.iter().flat_map(|(_, tally)| tally.departures().all()).collect();
+        let (peak, peak_direction) = self.symmetric_peak()?;
+        Ok(Reading {
             frame: self.options.frame,
             angles: self.options.angles.clone(),
             rgb: estimates.iter().map(|estimate| estimate.mean).collect(),
             intensities: estimates.iter().map(Estimate::luminance).collect(),
             errors: estimates.iter().map(Estimate::error).collect(),
+            halves: self.halves(),
+            peak,
+            peak_direction,
             fluxes: Fluxes {
                 emitted: flux(Flux::Emitted),
                 escaped: flux(Flux::Escaped),
+                up: flux(Flux::Up),
                 absorbed: flux(Flux::Absorbed),
                 cut_off: flux(Flux::CutOff),
             },
             escaped_rgb: self.flux(Flux::Escaped).mean,
-            opening: self.instrument.extent.opening(extent),
+            opening: Opening::of(&departures),
             body: if body.is_empty() { [[0.0; 3]; 2] } else { [body.min, body.max] },
             screen: self.screen(),
             paths: self.batches * self.parts.len() as u64 * LIGHT_BATCH as u64,
@@ -150,7 +192,7 @@ impl<'a> Run<'a> {
             converged: self.converged,
             statistics: self.statistics,
             diagnostics: Vec::new(),
-        }
+        })
     }
 
     fn screen(&self) -> Option<ScreenReading> {
@@ -159,4 +201,17 @@ impl<'a> Run<'a> {
         let (illuminance, errors) = cells.map(|cell| (cell.luminance(), cell.error())).unzip();
         Some(ScreenReading { screen, illuminance, errors })
     }
+}
+
+/// The intensity at the horizon by those just below and above it: the harmonic mean. It is both where they are the same, and none where no light goes
+/// to one of the sides, so that interpolation puts none there.
+fn at_horizon(below: &Estimate, above: &Estimate) -> Estimate {
+    let [a, b] = [below, above].map(Estimate::luminance);
+    let sum = a + b;
+    if a <= 0.0 || b <= 0.0 {
+        return Estimate::default();
+    }
+    let mean = below.plus(above).scaled(2.0 * a * b / (sum * sum)).mean;
+    let [of_below, of_above] = [b, a].map(|other| 2.0 * (other / sum).powi(2));
+    Estimate { mean, variance: of_below * of_below * below.variance + of_above * of_above * above.variance }
 }

@@ -1,8 +1,8 @@
 //! A measurement from the scene to its reading.
 
 use super::{
-    Options, Progress, Reading, angles::Cells, extent::ExtentAxes, reading::Fluxes, rounds::Run, screen::ScreenPlane, shining::Sources,
-    sources, tally::Instrument,
+    Options, Progress, Reading, angles::Cells, reading::Fluxes, rounds::Run, screen::ScreenPlane, shining::Sources, sources,
+    tally::Instrument,
 };
 use crate::{
     compile::{CompiledScene, compile, transport},
@@ -17,6 +17,9 @@ use std::{sync::atomic::AtomicBool, time::Instant};
 const MOST_BOUNCES: u32 = 256;
 /// Share of the sources' flux below which a luminaire counts as closed.
 const CLOSED: f64 = 1e-3;
+/// Standard errors that noise does not reach, and the share of the flux that rounding is.
+const NOISE: f64 = 5.0;
+const TINY: f64 = 1e-5;
 /// Share of the sources' flux that is too much to be cut off unsaid.
 const MUCH: f64 = 1e-3;
 
@@ -47,16 +50,16 @@ pub fn measure(
         frame: options.frame,
         origin: [0, 1, 2].map(|k| options.frame.origin[k] - compiled.tables.origin[k]),
         cells: Cells::new(&options.angles),
-        extent: ExtentAxes::new(&options.frame, &body),
         screen: options.screen.as_ref().map(|screen| ScreenPlane::new(screen, &options.frame)),
         rebased: compiled.tables.origin,
         execution,
     };
     let mut run = Run::new(&options, &instrument, &sources, start);
     run.trace(&compiled, &unlimited(&compiled, &options, execution), cancel, progress)?;
-    let mut reading = run.reading(&body);
+    let mut reading = run.reading(&body)?;
     reading.diagnostics = diagnostics;
     report_losses(&mut reading);
+    reading.fluxes = reading.fluxes.bounded();
     Ok(reading)
 }
 
@@ -68,11 +71,15 @@ fn unlimited(compiled: &CompiledScene, options: &Options, execution: Execution) 
 
 /// Says where light is lost that should not be.
 fn report_losses(reading: &mut Reading) {
-    let Fluxes { emitted, escaped, absorbed, cut_off } = reading.fluxes;
+    let Fluxes { emitted, escaped, absorbed, cut_off, .. } = reading.fluxes;
     let mut warn = |message: String| reading.diagnostics.push(Diagnostic::warning(&Origin::new("luminaire"), message));
     if escaped.value <= CLOSED * emitted.value {
         let [lost, all] = [absorbed.value, emitted.value];
         warn(format!("{lost:.1} of {all:.1} lm never leave: sources are inside solids, or the luminaire is closed"));
+    }
+    if -absorbed.value > NOISE * absorbed.error + TINY * emitted.value {
+        let [more, error] = [-absorbed.value, absorbed.error];
+        warn(format!("{more:.2} ± {error:.2} lm more leave than the sources send: a surface or a solid sends back more than it gets"));
     }
     if cut_off.value > MUCH * emitted.value {
         let lost = cut_off.value;

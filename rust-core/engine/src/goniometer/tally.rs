@@ -1,13 +1,13 @@
 //! What escapes from the luminaire, counted by direction and place.
 
 use super::{
-    angles::{Cells, OUTSIDE},
-    extent::ExtentAxes,
-    frame::Frame,
+    angles::{Cells, LEVEL, OUTSIDE},
+    frame::{Frame, dot},
+    opening::{Departure, Sample},
     screen::ScreenPlane,
 };
 use crate::{
-    light_paths::{Batch, BatchEstimates, Channels, Collector, Estimate, WorkerSums},
+    light_paths::{Batch, BatchEstimates, Channels, Collector, Estimate, FixedSums, WorkerSums},
     transport::{Arrivals, Escapes, LIGHT_BATCH, Receiver},
 };
 use gonio_simd::{Column, Execution, Lanes, Vec3, dispatch};
@@ -17,12 +17,14 @@ use gonio_simd::{Column, Execution, Lanes, Vec3, dispatch};
 pub(super) enum Flux {
     Emitted,
     Escaped,
+    /// Of what escaped, that which goes up.
+    Up,
     CutOff,
     Absorbed,
 }
 
-const FLUXES: usize = 4;
-/// One ray of so many tells where light leaves: it costs more than all else here.
+const FLUXES: usize = 5;
+/// One ray of so many tells where light leaves: that is enough of them.
 const SEEN: usize = 8;
 
 /// What rays are sorted by.
@@ -32,7 +34,6 @@ pub(super) struct Instrument {
     /// The frame's origin in the rebased world.
     pub(super) origin: [f64; 3],
     pub(super) cells: Cells,
-    pub(super) extent: ExtentAxes,
     pub(super) screen: Option<ScreenPlane>,
     /// World position of the rebased origin.
     pub(super) rebased: [f64; 3],
@@ -46,7 +47,9 @@ pub(super) struct Tally<'a> {
     directions: BatchEstimates,
     screen: BatchEstimates,
     fluxes: BatchEstimates,
-    extent: BatchEstimates,
+    /// Of directions, what batches of odd numbers brought: half of all, so that one half tells what the other's noise is.
+    odd: FixedSums,
+    departures: Sample,
 }
 
 /// A worker's batch.
@@ -56,8 +59,11 @@ pub(super) struct Room<'a> {
     directions: WorkerSums,
     screen: WorkerSums,
     fluxes: WorkerSums,
-    extent: WorkerSums,
-    escaped: Channels,
+    /// What escaped, and what of it goes up.
+    escaped: [Channels; 2],
+    departures: Option<Vec<Departure>>,
+    /// Rays that escaped in this batch.
+    count: usize,
     /// Cells of what escapes in a bounce, by entry.
     cells: Vec<u32>,
 }
@@ -85,7 +91,8 @@ impl<'a> Tally<'a> {
             directions: estimates(instrument.cells.len()),
             screen: estimates(instrument.screen.as_ref().map_or(0, ScreenPlane::len)),
             fluxes: estimates(FLUXES),
-            extent: estimates(ExtentAxes::len()),
+            odd: FixedSums::new(instrument.cells.len(), power, most),
+            departures: Sample::default(),
         }
     }
 
@@ -104,9 +111,15 @@ impl<'a> Tally<'a> {
         self.fluxes.get(flux as usize, batches, LIGHT_BATCH)
     }
 
-    /// Flux by place along the opening's axes, of which but their ratios count.
-    pub(super) fn extent(&self, cell: usize, batches: u64) -> Channels {
-        self.extent.get(cell, batches, LIGHT_BATCH).mean
+    /// Flux into a cell of directions by the half of all batches whose numbers are odd; there must be one.
+    pub(super) fn odd_direction(&self, cell: usize, batches: u64) -> Channels {
+        let paths = (batches / 2).max(1) as f64 * LIGHT_BATCH as f64;
+        self.odd.get(cell).map(|sum| sum / paths)
+    }
+
+    /// Where light leaves.
+    pub(super) fn departures(&self) -> &Sample {
+        &self.departures
     }
 }
 
@@ -120,30 +133,36 @@ impl<'a> Collector for Tally<'a> {
             directions: WorkerSums::new(instrument.cells.len()),
             screen: WorkerSums::new(instrument.screen.as_ref().map_or(0, ScreenPlane::len)),
             fluxes: WorkerSums::new(FLUXES),
-            extent: WorkerSums::new(ExtentAxes::len()),
-            escaped: [0.0; 3],
+            escaped: [[0.0; 3]; 2],
+            departures: self.departures.is_wanted().then(Vec::new),
+            count: 0,
             cells: Vec::new(),
         }
     }
 
     fn add(&self, batch: &Batch<'_>, room: &mut Room<'a>) {
-        let escaped = std::mem::take(&mut room.escaped);
+        let [escaped, up] = std::mem::take(&mut room.escaped);
+        room.count = 0;
         let (emitted, cut_off) = (batch.flux.emitted, batch.flux.cut_off);
         let absorbed = [0, 1, 2].map(|k| emitted[k] - escaped[k] - cut_off[k]);
-        for (flux, value) in [(Flux::Emitted, emitted), (Flux::Escaped, escaped), (Flux::CutOff, cut_off), (Flux::Absorbed, absorbed)] {
-            room.fluxes.add(flux as usize, value);
+        let fluxes =
+            [(Flux::Emitted, emitted), (Flux::Escaped, escaped), (Flux::Up, up), (Flux::CutOff, cut_off), (Flux::Absorbed, absorbed)];
+        fluxes.into_iter().for_each(|(flux, value)| room.fluxes.add(flux as usize, value));
+        if batch.number % 2 == 1 {
+            room.directions.of_batch().for_each(|(cell, value)| self.odd.add(cell, value));
+        }
+        if let Some(departures) = &mut room.departures {
+            self.departures.add(batch.number, std::mem::take(departures));
         }
         self.fluxes.complete(&mut room.fluxes);
         self.directions.complete(&mut room.directions);
         self.screen.complete(&mut room.screen);
-        self.extent.complete(&mut room.extent);
     }
 
     fn join(&self, room: &mut Room<'a>) {
         self.fluxes.join(&mut room.fluxes);
         self.directions.join(&mut room.directions);
         self.screen.join(&mut room.screen);
-        self.extent.join(&mut room.extent);
     }
 }
 
@@ -153,10 +172,12 @@ impl Receiver for Room<'_> {
     fn escaped(&mut self, escapes: &Escapes) {
         self.cells.resize(gonio_simd::padded(escapes.count), OUTSIDE);
         dispatch!(self.instrument.execution, l => self.instrument.find_cells(l, escapes, &mut self.cells));
+        let upwards = self.instrument.frame.axes[2];
         for entry in 0..escapes.count {
             let flux = three(&escapes.flux, entry);
-            for (sum, flux) in self.escaped.iter_mut().zip(flux) {
-                *sum += flux;
+            add(&mut self.escaped[0], flux);
+            if dot(upwards, three(&escapes.direction, entry)) > f64::from(LEVEL) {
+                add(&mut self.escaped[1], flux);
             }
             if self.cells[entry] != OUTSIDE {
                 self.directions.add(self.cells[entry] as usize, flux);
@@ -169,12 +190,15 @@ impl Receiver for Room<'_> {
 impl Room<'_> {
     /// Adds to the places that light leaves at, and to those of the screen.
     fn find_places(&mut self, escapes: &Escapes) {
-        let Instrument { origin, extent, screen, rebased, .. } = self.instrument;
-        for entry in (0..escapes.count).step_by(SEEN) {
-            let place = three(&escapes.origin, entry);
-            for cell in extent.find([0, 1, 2].map(|k| place[k] - origin[k])) {
-                self.extent.add(cell, three(&escapes.flux, entry));
-            }
+        let Instrument { frame, origin, screen, rebased, .. } = self.instrument;
+        if let Some(departures) = &mut self.departures {
+            let first = (SEEN - self.count % SEEN) % SEEN;
+            departures.extend((first..escapes.count).step_by(SEEN).map(|entry| {
+                let place = three(&escapes.origin, entry);
+                let from_origin = [0, 1, 2].map(|k| place[k] - origin[k]);
+                Departure { place: frame.direction(from_origin), direction: frame.direction(three(&escapes.direction, entry)) }
+            }));
+            self.count += escapes.count;
         }
         let Some(screen) = screen else { return };
         for entry in 0..escapes.count {
@@ -184,6 +208,11 @@ impl Room<'_> {
             }
         }
     }
+}
+
+#[inline(always)]
+fn add(sum: &mut Channels, flux: Channels) {
+    sum.iter_mut().zip(flux).for_each(|(sum, flux)| *sum += flux);
 }
 
 #[inline(always)]

@@ -8,6 +8,9 @@ const CUT_STEP: f64 = 0.5;
 /// Difference, relative to the peak, below which two intensities count as equal where a symmetry is looked for.
 const EQUAL: f64 = 1e-3;
 
+/// Share of the greatest intensity that neither C0–C180 nor C90–C270 reaches where the beam's axis lies aside.
+pub(crate) const MISSED: f64 = 0.95;
+
 /// Figures of a goniogram.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figures {
@@ -29,6 +32,8 @@ pub struct Figures {
     pub beam: [Spread; 2],
     /// The same at 10 %.
     pub field: [Spread; 2],
+    /// The plane of the greatest intensity, where both of these planes miss it.
+    pub aside: Option<Aside>,
     /// The highest symmetry within 0.1 % of the peak.
     pub symmetry: Symmetry,
 }
@@ -41,6 +46,19 @@ pub struct Spread {
     pub range: [f64; 2],
     /// Whether the angles are from zenith.
     pub up: bool,
+    /// Which ends are but the hemisphere's: the intensity does not fall below the share on that side.
+    pub open: [bool; 2],
+}
+
+/// A beam whose axis lies in none of the planes C0–C180 and C90–C270: their angles are not the beam's.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Aside {
+    /// The C plane of the axis in degrees.
+    pub c: f64,
+    /// Where the intensity is 50 % of the greatest in the plane through it and the one across from it.
+    pub beam: Spread,
+    /// The same at 10 %.
+    pub field: Spread,
 }
 
 impl Spread {
@@ -56,19 +74,32 @@ impl Goniogram {
         let flux = self.flux();
         let lamps = self.lamps();
         let watts = lamps.map(|lamps| lamps.watts).filter(|watts| *watts > 0.0);
-        let [c0, c90] = [0.0, 90.0].map(|c| self.cut_with_horizon(c));
+        let tops = [0.0, 90.0].map(|c| self.cut(c).iter().map(|point| point[1]).fold(0.0, f64::max));
+        let (peak, direction) = (self.peak(), self.peak_direction());
+        let missed = tops.iter().all(|top| *top < MISSED * peak);
         Figures {
             flux,
             downward_fraction: if flux > 0.0 { self.flux_below() / flux } else { 0.0 },
             light_output_ratio: lamps.and_then(|lamps| lamps.flux).map(|lamp_flux| flux / lamp_flux),
             watts,
             efficacy: watts.map(|watts| flux / watts),
-            peak: self.peak(),
-            peak_direction: self.peak_direction(),
-            beam: [spread(&c0, 0.5), spread(&c90, 0.5)],
-            field: [spread(&c0, 0.1), spread(&c90, 0.1)],
+            peak,
+            peak_direction: direction,
+            beam: [self.spread(0.0, 0.5, None), self.spread(90.0, 0.5, None)],
+            field: [self.spread(0.0, 0.1, None), self.spread(90.0, 0.1, None)],
+            aside: missed.then(|| self.aside(direction[0], None)),
             symmetry: self.symmetry_found(EQUAL),
         }
+    }
+
+    /// The range of directions in the planes C(c) and the one across from it whose intensity reaches a share of the greatest there, or of `top` cd.
+    pub(crate) fn spread(&self, c: f64, share: f64, top: Option<f64>) -> Spread {
+        spread(&self.cut_with_horizon(c), share, top)
+    }
+
+    /// The beam in its own plane.
+    pub(crate) fn aside(&self, c: f64, top: Option<f64>) -> Aside {
+        Aside { c, beam: self.spread(c, 0.5, top), field: self.spread(c, 0.1, top) }
     }
 
     /// C plane and γ in degrees of the greatest intensity.
@@ -116,38 +147,37 @@ impl Goniogram {
     }
 }
 
-/// The outermost directions of a cut that reach a share of its greatest intensity.
-fn spread(cut: &[[f64; 2]], share: f64) -> Spread {
+/// The outermost directions of a cut that reach a share of its greatest intensity, or of `top` cd where that is known better.
+fn spread(cut: &[[f64; 2]], share: f64, top: Option<f64>) -> Spread {
     let below = |point: &&[f64; 2]| point[0].abs() <= 90.0;
     let above = |point: &&[f64; 2]| point[0].abs() >= 90.0;
-    let top = |points: &mut dyn Iterator<Item = &[f64; 2]>| points.map(|point| point[1]).fold(0.0, f64::max);
-    let tops = [top(&mut cut.iter().filter(below)), top(&mut cut.iter().filter(above))];
+    let greatest = |points: &mut dyn Iterator<Item = &[f64; 2]>| points.map(|point| point[1]).fold(0.0, f64::max);
+    let tops = [greatest(&mut cut.iter().filter(below)), greatest(&mut cut.iter().filter(above))];
     let up = tops[1] > tops[0];
     let mut points: Vec<[f64; 2]> = cut.iter().filter(|point| if up { above(point) } else { below(point) }).copied().collect();
     if up {
         points.iter_mut().for_each(|point| point[0] = (180.0 - point[0].abs()) * point[0].signum());
         points.sort_by(|a, b| a[0].total_cmp(&b[0]));
     }
-    let level = share * tops[usize::from(up)];
-    let mut ends = [0.0; 2];
-    if level > 0.0 {
-        ends[0] = crossing(points.iter(), level);
-        ends[1] = crossing(points.iter().rev(), level);
+    let level = share * top.unwrap_or(tops[usize::from(up)]);
+    if level <= 0.0 {
+        return Spread { up, ..Spread::default() };
     }
-    Spread { range: ends, up }
+    let [first, last] = [crossing(points.iter(), level), crossing(points.iter().rev(), level)];
+    Spread { range: [first.0, last.0], up, open: [first.1, last.1] }
 }
 
-/// Where points in order first reach a level, linear between them.
-fn crossing<'a>(points: impl Iterator<Item = &'a [f64; 2]>, level: f64) -> f64 {
+/// Where points in order first reach a level, linear between them, and whether the first does already.
+fn crossing<'a>(points: impl Iterator<Item = &'a [f64; 2]>, level: f64) -> (f64, bool) {
     let mut before: Option<&[f64; 2]> = None;
     for point in points {
         if point[1] >= level {
             return match before {
-                Some(before) => before[0] + (level - before[1]) / (point[1] - before[1]) * (point[0] - before[0]),
-                None => point[0],
+                Some(before) => (before[0] + (level - before[1]) / (point[1] - before[1]) * (point[0] - before[0]), false),
+                None => (point[0], true),
             };
         }
         before = Some(point);
     }
-    0.0
+    (0.0, false)
 }

@@ -34,7 +34,7 @@ mod zones;
 
 pub use beside::{Beside, beside};
 pub use cone::cone_diagram;
-pub use figures::{Figures, Spread};
+pub use figures::{Aside, Figures, Spread};
 pub use goniogram::{Goniogram, HeaderLine, LampSet, PhotometricType, Stated, Symmetry, Tilt};
 pub use grid::Grid;
 pub use opening::{Opening, OpeningShape};

@@ -1,6 +1,7 @@
 //! The luminous opening: which part of a luminaire shines.
 
 use serde::{Deserialize, Serialize};
+use std::f64::consts::FRAC_PI_4;
 
 /// What shines, in metres in the luminaire's frame, centred on the photometric centre.
 ///
@@ -66,11 +67,12 @@ impl Opening {
         Self { shape, size, heights }
     }
 
-    /// EULUMDAT's length and width in metres; width 0 for what is round.
+    /// EULUMDAT's length and width in metres; width 0 for what is round. It knows no ellipses: they become rectangles of the same area.
     pub(crate) fn eulumdat_area(&self) -> [f64; 2] {
         let [x, y, _] = self.size;
         match self.shape {
             OpeningShape::Disk | OpeningShape::VerticalCylinder | OpeningShape::Ellipsoid if x == y => [y, 0.0],
+            OpeningShape::Disk | OpeningShape::VerticalCylinder | OpeningShape::Ellipsoid => [y, x].map(|side| side * FRAC_PI_4.sqrt()),
             _ => [y, x],
         }
     }
@@ -110,7 +112,7 @@ impl Opening {
     }
 
     /// Whether it looks the same however it is turned about Z.
-    pub(crate) fn is_round(&self) -> bool {
+    pub fn is_round(&self) -> bool {
         let shape =
             matches!(self.shape, OpeningShape::Point | OpeningShape::Disk | OpeningShape::VerticalCylinder | OpeningShape::Ellipsoid);
         shape && self.size[0] == self.size[1] && self.heights.iter().all(|height| *height == self.heights[0])

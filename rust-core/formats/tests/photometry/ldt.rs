@@ -1,7 +1,7 @@
 //! EULUMDAT's own ways.
 
-use crate::close;
-use gonio_formats::photometry::{Goniogram, OpeningShape, Symmetry, ldt};
+use crate::{close, steps, type_c};
+use gonio_formats::photometry::{Goniogram, Opening, OpeningShape, Symmetry, ldt};
 
 /// What a test varies of an EULUMDAT file.
 pub(crate) struct Text {
@@ -126,4 +126,41 @@ fn angles_that_are_all_zero_follow_the_stated_steps() {
     let goniogram = Text { planes, symmetry: 4, ..Text::default() }.read(&thirties(0, 3), |_, _| ISOTROPIC);
     assert_eq!(goniogram.horizontal, thirties(0, 3));
     assert_eq!(goniogram.warnings.len(), 1);
+}
+
+#[test]
+fn the_kind_is_one_of_three_whatever_the_symmetry() {
+    let kind = |goniogram: &Goniogram| String::from_utf8(ldt::write(goniogram)).unwrap().lines().nth(1).unwrap().to_owned();
+    let gammas = steps(0.0, 90.0, 18);
+    let lobe = |gamma: f64| 100.0 * gamma.to_radians().cos().max(0.0);
+    let round = type_c(&gammas, &[0.0], |_, gamma| lobe(gamma));
+    let quarter = type_c(&gammas, &[0.0, 45.0, 90.0], |c, gamma| lobe(gamma) * (1.0 + c / 90.0));
+    let crooked = type_c(&gammas, &[0.0, 90.0, 180.0, 270.0], |c, gamma| lobe(gamma) * (1.0 + c / 90.0));
+    assert_eq!(crooked.symmetry, Symmetry::None);
+    for (goniogram, points) in [(&round, "1"), (&quarter, "3"), (&crooked, "3")] {
+        assert_eq!(kind(goniogram), points);
+        let mut long = goniogram.clone();
+        // Rotational symmetry is that of a point source, however long the luminaire is.
+        let linear = if points == "1" { "1" } else { "2" };
+        for shape in [OpeningShape::Rectangle, OpeningShape::Box, OpeningShape::CylinderAlongY] {
+            long.opening = Opening::new(shape, [0.1, 1.2, 0.1]);
+            assert_eq!(kind(&long), linear, "{shape:?}");
+        }
+        // Without an opening the body tells.
+        long.opening = Opening::default();
+        long.body = [1.2, 0.1, 0.1];
+        assert_eq!(kind(&long), linear);
+        long.body = [1.2, 0.0, 0.1];
+        assert_eq!(kind(&long), points);
+    }
+}
+
+#[test]
+fn ellipses_become_rectangles_of_their_area() {
+    let mut goniogram = type_c(&steps(0.0, 90.0, 18), &[0.0, 90.0], |c, gamma| 100.0 * gamma.to_radians().cos().max(0.0) * (1.0 + c));
+    goniogram.opening = Opening::new(OpeningShape::Disk, [0.2, 0.3, 0.0]);
+    let again = ldt::read(&ldt::write(&goniogram)).unwrap();
+    let down = [0.0, 0.0, -1.0];
+    close(again.opening.projected_area(down), goniogram.opening.projected_area(down), 1e-9);
+    close(again.opening.size[1] / again.opening.size[0], 1.5, 1e-9);
 }

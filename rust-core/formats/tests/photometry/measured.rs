@@ -2,7 +2,7 @@
 
 use crate::{close, steps};
 use gonio_formats::photometry::measured::{Measurement, MeasurementHead};
-use gonio_formats::photometry::{OpeningShape, PhotometricType, Symmetry, ies, ldt, read};
+use gonio_formats::photometry::{Opening, OpeningShape, PhotometricType, Symmetry, ies, ldt, read};
 use std::f64::consts::PI;
 
 /// Numbers without visible order (SplitMix64).
@@ -134,7 +134,7 @@ fn poles_are_one_direction() {
 fn whole() -> Measurement {
     let wide = |c: f64, g: f64| lobe(g) * (1.0 + 0.3 * (2.0 * c).to_radians().cos()) + 0.2 * lobe(180.0 - g);
     Measurement {
-        opening: [1.2, 0.3, 0.05],
+        opening: Opening::new(OpeningShape::Box, [1.2, 0.3, 0.05]),
         body: Some([1.25, 0.35, 0.08]),
         watts: Some(42.5),
         colour_temperature: Some(3987.0),
@@ -235,7 +235,7 @@ fn nonsense_is_refused() {
     assert!(problem(&|bad| bad.planes[3] = 50.0).contains("C plane 4 of 24 is 50, expected 45"));
     assert!(problem(&|bad| bad.gammas[3] = 50.0).contains("increase"));
     assert!(problem(&|bad| bad.flux = 5100.0).contains("its sources emit 5000 lm"));
-    assert!(problem(&|bad| bad.opening[0] = -1.0).contains("an extent is -1 m"));
+    assert!(problem(&|bad| bad.opening.size[0] = -1.0).contains("an extent is -1 m"));
     let mut closed = good.clone();
     closed.planes.push(360.0);
     closed.intensities.extend_from_slice(&good.intensities[..73]);
@@ -267,4 +267,94 @@ fn direct_ratios_are_those_of_makers() {
     let lambertian = crate::type_c(&steps(0.0, 90.0, 90), &[0.0], |_, gamma| 100.0 * gamma.to_radians().cos().max(0.0));
     // Two squares of side 2 a distance 1 apart (room index 1).
     close(lambertian.direct_ratios()[2], 0.4153, 2e-3);
+}
+
+/// The same with halves of its own noise, each with √2 times the errors.
+fn halved(intensity: impl Fn(f64, f64) -> f64 + Copy, noise: f64, seed: u64) -> Measurement {
+    let [first, second] = [0, 1].map(|half| measured(intensity, noise * 2.0_f64.sqrt(), 2 * seed + half));
+    let mean = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| 0.5 * (a + b)).collect::<Vec<_>>();
+    let intensities = mean(&first.intensities, &second.intensities);
+    let errors = first.errors.iter().map(|error| error / 2.0_f64.sqrt()).collect();
+    Measurement { intensities, errors, halves: Some([first.intensities.clone(), second.intensities]), ..first }
+}
+
+#[test]
+fn noise_does_not_raise_the_peak() {
+    let runs = |intensity: fn(f64, f64) -> f64, symmetry: Symmetry| {
+        let all = (0..50).map(|seed| {
+            let reduced = halved(intensity, 0.5, seed).reduced(Some(symmetry)).unwrap();
+            let figures = reduced.figures();
+            [figures.peak.value, reduced.goniogram.peak(), figures.peak.error, figures.beam[0].spread.angle()]
+        });
+        all.fold([0.0; 4], |sum, one| std::array::from_fn(|k| sum[k] + one[k] / 50.0))
+    };
+    // 5 % of noise in each of 1728 directions.
+    let [peak, greatest, error, _] = runs(|_, _| 100.0, Symmetry::None);
+    assert!((peak - 100.0).abs() < 4.0 * error / 50.0_f64.sqrt() && greatest > 115.0, "{peak} ± {error}, {greatest}");
+    let [peak, _, error, _] = runs(|_, _| 100.0, Symmetry::Rotational);
+    assert!((peak - 100.0).abs() < 4.0 * error / 50.0_f64.sqrt(), "{peak} ± {error}");
+    // A beam of 1000 cd: no more than an error below, never above.
+    let [peak, greatest, error, beam] = runs(|_, gamma| lobe(gamma), Symmetry::None);
+    assert!(peak < 1000.0 + error && peak > 1000.0 - 1.5 * error && greatest > 1000.0 + error, "{peak} ± {error}, {greatest}");
+    close(beam, 2.0 * 0.5_f64.powf(0.25).acos().to_degrees(), 0.01);
+}
+
+#[test]
+fn angles_without_an_end_have_no_error() {
+    // Without a fall there is none, and what noise hides is not defined: never thousands of degrees.
+    for (intensity, noise, seeds) in [((|_, _| 100.0) as fn(f64, f64) -> f64, 0.3, 5), (|_, gamma| 100.0 + 0.01 * gamma, 0.5, 5)] {
+        for seed in 0..seeds {
+            let figures = halved(intensity, noise, seed).reduced(None).unwrap().figures();
+            for found in figures.beam.iter().chain(&figures.field) {
+                assert!(found.error.is_none_or(|error| error <= 0.5 * found.spread.angle()), "{found:?}");
+                assert_eq!((found.spread.open, found.error), ([true; 2], None), "{found:?}");
+            }
+        }
+    }
+    let figures = halved(|_, gamma| lobe(gamma), 0.3, 1).reduced(None).unwrap().figures();
+    assert!(figures.beam.iter().all(|found| found.spread.open == [false; 2] && found.error.is_some_and(|error| error < 5.0)));
+}
+
+#[test]
+fn beams_aside_are_told() {
+    // A beam at C 60°, γ 40°, and one straight down.
+    let towards = |c: f64, gamma: f64| {
+        move |at: f64, g: f64| {
+            let [a, b] = [(c, gamma), (at, g)].map(|(c, gamma)| PhotometricType::C.direction(c, gamma));
+            1000.0 * (0..3).map(|k| a[k] * b[k]).sum::<f64>().max(0.0).powi(8)
+        }
+    };
+    let reduced = measured(towards(60.0, 40.0), 0.1, 1).reduced(None).unwrap();
+    let aside = reduced.figures().aside.unwrap();
+    assert_eq!(aside.c, 60.0);
+    // cos⁸ is a half at 23.5°.
+    close(aside.beam.angle(), 2.0 * 0.5_f64.powf(0.125).acos().to_degrees(), 0.03);
+    assert!(reduced.goniogram.figures().aside.is_some());
+    for c in [0.0, 90.0, 270.0] {
+        assert_eq!(measured(towards(c, 40.0), 0.1, 1).reduced(None).unwrap().figures().aside, None, "{c}");
+    }
+    assert_eq!(measured(|_, _| 100.0, 3.0, 1).reduced(None).unwrap().figures().aside, None);
+}
+
+#[test]
+fn light_is_counted_apart_below_and_above() {
+    let mut counted = whole();
+    counted.flux_up = Some([0.25 * counted.flux, 0.001 * counted.flux]);
+    let reduced = counted.reduced(None).unwrap();
+    close(reduced.figures().downward_fraction.value, 0.75, 1e-12);
+    close(reduced.figures().downward_fraction.error, 0.001, 1e-12);
+    // The intensities have 1/6 of it above.
+    let told: Vec<_> = reduced.goniogram.warnings.iter().map(|warning| warning.problem.as_str()).collect();
+    assert!(told.len() == 1 && told[0].starts_with("75.0 % of the light was counted below the horizon"), "{told:?}");
+}
+
+#[test]
+fn intensities_hold_no_more_than_was_sent() {
+    let mut full = whole();
+    full.source_flux = 0.999 * full.flux;
+    full.flux = full.source_flux;
+    let reduced = full.reduced(None).unwrap();
+    close(reduced.goniogram.flux(), full.source_flux, 1e-12);
+    assert_eq!(reduced.goniogram.stated.light_output_ratio, Some(1.0));
+    assert!(ldt::read(&reduced.to_ldt()).unwrap().figures().light_output_ratio.unwrap() <= 1.0 + 1e-9);
 }

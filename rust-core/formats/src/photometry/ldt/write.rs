@@ -5,6 +5,9 @@ use crate::photometry::text::{encode, number, one_line};
 use crate::photometry::{Goniogram, OpeningShape, PhotometricType, Symmetry};
 use std::borrow::Cow;
 
+/// How many times longer than wide a linear luminaire is at least.
+const LINEAR: f64 = 4.0;
+
 /// Writes EULUMDAT for the lamp set the goniogram is for, the others beside it as alternatives; ISO 8859-1, numbers of ten digits.
 ///
 /// Photometric types A and B are resampled to type C. Lamps without a flux of their own become absolute photometry: the luminaire's flux
@@ -69,12 +72,10 @@ fn head(goniogram: &Goniogram, planes: &[f64]) -> Vec<String> {
         Symmetry::AboutC90 => 3,
         Symmetry::Quadrants => 4,
     };
-    let linear = matches!(goniogram.opening.shape, OpeningShape::Rectangle | OpeningShape::Box)
-        && goniogram.opening.size[0].max(goniogram.opening.size[1]) > 4.0 * goniogram.opening.size[0].min(goniogram.opening.size[1]);
+    // Of 1 to 3, whatever the symmetry: programs refuse others, and cut linear luminaires alone into pieces.
     let kind = match goniogram.symmetry {
         Symmetry::Rotational => 1,
-        _ if linear => 2,
-        Symmetry::None => 0,
+        _ if is_linear(goniogram) => 2,
         _ => 3,
     };
     let text = |keyword: &str| one_line(goniogram.text(keyword).unwrap_or_default());
@@ -92,6 +93,18 @@ fn head(goniogram: &Goniogram, planes: &[f64]) -> Vec<String> {
         text("FILE"),
         one_line(goniogram.text("DATE").or_else(|| goniogram.text("ISSUEDATE")).unwrap_or_default()),
     ]
+}
+
+/// Whether what shines, or the luminaire where nothing is said of that, is far longer than it is wide.
+fn is_linear(goniogram: &Goniogram) -> bool {
+    let ([x, y, _], [length, width, _]) = (goniogram.opening.size, goniogram.body);
+    let [a, b] = match goniogram.opening.shape {
+        OpeningShape::Rectangle | OpeningShape::Box | OpeningShape::CylinderAlongX | OpeningShape::CylinderAlongY => [x, y],
+        // A width of 0 is round.
+        OpeningShape::Point if width > 0.0 => [length, width],
+        _ => return false,
+    };
+    a.max(b) > LINEAR * a.min(b)
 }
 
 /// From the luminaire's size to the tilt of the measurement.

@@ -1,7 +1,8 @@
 //! Figures of a measurement with their standard errors.
 
 use super::Reduced;
-use crate::photometry::{Goniogram, Spread};
+use crate::photometry::figures::MISSED;
+use crate::photometry::{Aside, Goniogram, Spread};
 
 /// A value and its standard error.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -17,9 +18,17 @@ pub struct WithError {
 pub struct MeasuredSpread {
     /// The range.
     pub spread: Spread,
-    /// Standard error in degrees of the angle between its ends; `None` where the intensity is flat at one of them.
+    /// Standard error in degrees of the angle between its ends; `None` where that is not defined: an end is the hemisphere's, or noise hides where the
+    /// intensity falls.
     pub error: Option<f64>,
 }
+
+/// Standard errors by which one intensity is above another without doubt.
+const SURE: f64 = 3.0;
+/// Standard errors that are taken off intensities where the greatest is looked for: else the least exact ones would win.
+const CAUTION: f64 = 2.0;
+/// Share of an angle above which its standard error tells nothing.
+const UNKNOWN: f64 = 0.5;
 
 /// Figures of a measurement.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,43 +37,91 @@ pub struct MeasuredFigures {
     pub flux: WithError,
     /// It over the sources' flux; `None` where they emit none.
     pub light_output_ratio: Option<WithError>,
-    /// Share of the flux below the horizontal plane, by the intensities.
+    /// Share of the flux below the horizontal plane, as it was counted, or else by the intensities.
     pub downward_fraction: WithError,
     /// Share of it above.
     pub upward_fraction: WithError,
-    /// The greatest intensity in cd.
+    /// The greatest intensity in cd: where one half of the measurement has it, by the other half, so that noise does not raise it.
     pub peak: WithError,
+    /// Its C plane and γ in degrees.
+    pub peak_direction: [f64; 2],
     /// Where the intensity is half the plane's greatest, in the planes C0–C180 and C90–C270.
     pub beam: [MeasuredSpread; 2],
     /// The same at a tenth.
     pub field: [MeasuredSpread; 2],
+    /// The plane of the greatest intensity, where both of these planes miss it by more than noise.
+    pub aside: Option<Aside>,
 }
 
 impl Reduced {
     /// The figures.
     pub fn figures(&self) -> MeasuredFigures {
-        let figures = self.goniogram.figures();
         let down = self.share_below();
-        let index = self.goniogram.intensities.iter().position(|value| *value >= figures.peak).unwrap_or(0);
+        let (place, peak) = self.peak();
+        let gammas = self.goniogram.vertical.len().max(1);
+        let peak_direction = [self.goniogram.horizontal[place / gammas], self.goniogram.vertical[place % gammas]];
         let errors = Goniogram { intensities: self.errors.clone(), ..self.goniogram.clone() };
-        let spread = |spread: Spread, plane: usize, share: f64| MeasuredSpread {
-            spread,
-            error: self.spread_error(&errors, spread, 90.0 * plane as f64, share),
+        let tops = [0.0, 90.0].map(|c| self.top(&errors, c));
+        let spreads = |share: f64| {
+            [0, 1].map(|plane| {
+                let (c, top) = (90.0 * plane as f64, tops[plane]);
+                let spread = self.goniogram.spread(c, share, Some(top.value));
+                MeasuredSpread { spread, error: self.spread_error(&errors, spread, c, share * top.error) }
+            })
         };
+        let missed = tops.iter().all(|top| top.value + SURE * top.error.hypot(peak.error) < MISSED * peak.value);
         let emits = self.source_flux > 0.0;
         MeasuredFigures {
             flux: WithError { value: self.flux, error: self.flux_error },
             light_output_ratio: emits.then(|| WithError { value: self.flux / self.source_flux, error: self.flux_error / self.source_flux }),
             downward_fraction: down,
             upward_fraction: WithError { value: 1.0 - down.value, error: down.error },
-            peak: WithError { value: figures.peak, error: self.errors.get(index).copied().unwrap_or(0.0) },
-            beam: [0, 1].map(|plane| spread(figures.beam[plane], plane, 0.5)),
-            field: [0, 1].map(|plane| spread(figures.field[plane], plane, 0.1)),
+            peak,
+            peak_direction,
+            beam: spreads(0.5),
+            field: spreads(0.1),
+            aside: missed.then(|| self.goniogram.aside(peak_direction[0], Some(peak.value))),
         }
     }
 
-    /// The share of the flux below the horizontal plane: D / (D + U), with D and U taken as independent.
-    fn share_below(&self) -> WithError {
+    /// The place of the greatest intensity among those of the goniogram, and the intensity.
+    fn peak(&self) -> (usize, WithError) {
+        let values = &self.goniogram.intensities;
+        let place = greatest(values.iter().zip(&self.errors).map(|(value, error)| value - CAUTION * error));
+        (place, self.greatest_of(values, self.halves.as_ref().map(|halves| halves.each_ref().map(|half| &half[..])), &self.errors))
+    }
+
+    /// The greatest intensity in the plane through C(c), in the hemisphere that has it.
+    fn top(&self, errors: &Goniogram, c: f64) -> WithError {
+        let cut = |goniogram: &Goniogram| goniogram.cut(c).into_iter().map(|point| point[1]).collect::<Vec<_>>();
+        let halves = self
+            .halves
+            .as_ref()
+            .map(|halves| halves.each_ref().map(|half| cut(&Goniogram { intensities: half.clone(), ..self.goniogram.clone() })));
+        let halves = halves.as_ref().map(|halves| halves.each_ref().map(|half| &half[..]));
+        self.greatest_of(&cut(&self.goniogram), halves, &cut(errors))
+    }
+
+    /// The greatest of noisy values: chosen by one half and told by the other, both ways; without halves the greatest.
+    fn greatest_of(&self, values: &[f64], halves: Option<[&[f64]; 2]>, errors: &[f64]) -> WithError {
+        let Some(halves) = halves else {
+            let place = greatest(values.iter().copied());
+            return WithError { value: values.get(place).copied().unwrap_or(0.0), error: errors.get(place).copied().unwrap_or(0.0) };
+        };
+        // Half of the measurement has √2 times the error.
+        let doubt = CAUTION * std::f64::consts::SQRT_2;
+        let [first, second] = halves.map(|half| greatest(half.iter().zip(errors).map(|(value, error)| value - doubt * error)));
+        let error = (0.5 * (errors[first].powi(2) + errors[second].powi(2))).sqrt();
+        WithError { value: 0.5 * (halves[1][first] + halves[0][second]), error }
+    }
+
+    /// The share of the flux below the horizontal plane: as it was counted, or else by the intensities.
+    pub(super) fn share_below(&self) -> WithError {
+        self.counted_below.unwrap_or_else(|| self.share_by_intensities())
+    }
+
+    /// The same by the intensities: D / (D + U), with D and U taken as independent.
+    pub(super) fn share_by_intensities(&self) -> WithError {
         let sum = |limits: [f64; 2]| {
             let weights = self.goniogram.flux_weights(limits);
             let terms = weights.iter().zip(&self.goniogram.intensities).zip(&self.errors);
@@ -79,18 +136,17 @@ impl Reduced {
         WithError { value: down / whole, error }
     }
 
-    /// The error of an angle between two ends at which the intensity crosses a share of the greatest in the plane through C(c).
-    fn spread_error(&self, errors: &Goniogram, spread: Spread, c: f64, share: f64) -> Option<f64> {
-        let inside = |point: &[f64; 2]| point[0].abs() == 90.0 || (point[0].abs() > 90.0) == spread.up;
-        let points = self.goniogram.cut(c).into_iter().filter(inside);
-        let top = points.fold([0.0; 2], |top, point| if point[1] > top[1] { point } else { top });
-        let of_top = share * at(errors, c, top[0]);
+    /// The error of an angle between two ends at which the intensity in the plane through C(c) crosses a level that has an error itself.
+    fn spread_error(&self, errors: &Goniogram, spread: Spread, c: f64, of_level: f64) -> Option<f64> {
+        if spread.open != [false; 2] {
+            return None;
+        }
         let mut variance = 0.0;
         for end in spread.range {
             let gamma = if spread.up { (180.0 - end.abs()).copysign(end) } else { end };
-            variance += self.crossing_variance(errors, c, gamma, of_top)?;
+            variance += self.crossing_variance(errors, c, gamma, of_level)?;
         }
-        Some(variance.sqrt())
+        Some(variance.sqrt()).filter(|error| *error <= UNKNOWN * spread.angle())
     }
 
     /// The variance in square degrees of where the intensity crosses a level: it is linear between two angles whose errors are independent.
@@ -104,6 +160,11 @@ impl Reduced {
         let own = ((1.0 - t) * at(errors, c, low)).powi(2) + (t * at(errors, c, high)).powi(2);
         (slope != 0.0).then(|| (own + of_level * of_level) / (slope * slope))
     }
+}
+
+/// The place of the greatest number; the first without numbers.
+fn greatest(numbers: impl Iterator<Item = f64>) -> usize {
+    numbers.enumerate().fold((0, f64::NEG_INFINITY), |best, (place, number)| if number > best.1 { (place, number) } else { best }).0
 }
 
 /// The value in the plane through C(c), at a γ that is negative across from it.

@@ -1,9 +1,9 @@
 //! The measurement as the instrument gives it.
 
 use crate::error::{FormatError, Result};
+use crate::photometry::Opening;
 use crate::photometry::grid::SAME;
 use crate::photometry::text::LARGEST;
-use crate::photometry::{Opening, OpeningShape};
 
 /// Texts for the head of a file; empty where there is none.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -37,11 +37,14 @@ pub struct Measurement {
     pub flux: f64,
     /// Standard error in lm of the flux that left.
     pub flux_error: f64,
-    /// The luminous opening's length along C0–C180, its width along C90–C270 and its height in metres; all 0 for a point.
-    pub opening: [f64; 3],
-    /// Whether the opening is round.
-    pub round: bool,
-    /// The whole luminaire's extents in metres, in the opening's order; `None` where they are not known.
+    /// Of the flux that left, what goes above the horizontal plane, and its standard error, in lm; `None` where it was not counted apart.
+    pub flux_up: Option<[f64; 2]>,
+    /// Intensities by two halves of the measurement that are independent of each other, in the order of all; `None` where there are none. What is
+    /// chosen by one half is told by the other, without the bias that the greatest of noisy values has.
+    pub halves: Option<[Vec<f64>; 2]>,
+    /// The luminous opening.
+    pub opening: Opening,
+    /// The whole luminaire's extents in metres along C0–C180, C90–C270 and upwards; `None` where they are not known.
     pub body: Option<[f64; 3]>,
     /// Connected power in W, if known.
     pub watts: Option<f64>,
@@ -68,18 +71,6 @@ impl Measurement {
         [0.0, 180.0].iter().any(|pole| (self.gammas[gamma] - pole).abs() < SAME)
     }
 
-    /// The luminous opening.
-    pub(super) fn luminous_opening(&self) -> Opening {
-        let shape = match (self.round, self.opening[2] > 0.0) {
-            _ if self.opening == [0.0; 3] => OpeningShape::Point,
-            (true, true) => OpeningShape::VerticalCylinder,
-            (true, false) => OpeningShape::Disk,
-            (false, true) => OpeningShape::Box,
-            (false, false) => OpeningShape::Rectangle,
-        };
-        Opening::new(shape, self.opening)
-    }
-
     /// The measurement with its planes from 0 on and without one at 360, after a look at all that can be wrong with it.
     ///
     /// # Errors
@@ -88,7 +79,8 @@ impl Measurement {
     pub(super) fn checked(&self) -> Result<Self> {
         let (planes, gammas) = (self.planes.len(), self.gammas.len());
         let fail = |problem: String| Err(FormatError::whole(problem));
-        for (name, values) in [("intensities", &self.intensities), ("standard errors", &self.errors)] {
+        let halves = self.halves.iter().flatten().map(|half| ("halves' intensities", half));
+        for (name, values) in [("intensities", &self.intensities), ("standard errors", &self.errors)].into_iter().chain(halves) {
             if planes.checked_mul(gammas) != Some(values.len()) {
                 return fail(format!("{} {name} were given for {planes} C planes of {gammas} angles", values.len()));
             }
@@ -105,14 +97,21 @@ impl Measurement {
         if self.source_flux > 0.0 && self.flux > self.source_flux * (1.0 + 1e-6) + 4.0 * self.flux_error {
             return fail(format!("{} lm left the luminaire, but its sources emit {} lm", self.flux, self.source_flux));
         }
-        if let Some(bad) = self.opening.iter().chain(self.body.iter().flatten()).find(|extent| !(0.0..=1e4).contains(*extent)) {
+        if let Some(bad) = self
+            .opening
+            .size
+            .iter()
+            .chain(&self.opening.heights)
+            .chain(self.body.iter().flatten())
+            .find(|extent| !(0.0..=1e4).contains(*extent))
+        {
             return fail(format!("an extent is {bad} m, expected 0 to 10000"));
         }
         let mut whole = self.clone();
         if planes > 1 && (self.planes[planes - 1] - 360.0).abs() < SAME {
             whole.planes.pop();
-            whole.intensities.truncate((planes - 1) * gammas);
-            whole.errors.truncate((planes - 1) * gammas);
+            let lists = [&mut whole.intensities, &mut whole.errors].into_iter().chain(whole.halves.iter_mut().flatten());
+            lists.for_each(|list| list.truncate((planes - 1) * gammas));
         }
         whole.check_angles()?;
         Ok(whole)

@@ -1,12 +1,15 @@
 //! From all planes to those that a symmetry leaves, and to files.
 
 use super::symmetry::Group;
-use super::{Measurement, SymmetryTest};
+use super::{Measurement, SymmetryTest, WithError};
 use crate::error::{FormatError, Result};
 use crate::photometry::check::TOLERANCE;
 use crate::photometry::ies::Generation;
 use crate::photometry::text::number;
 use crate::photometry::{Goniogram, HeaderLine, LampSet, PhotometricType, Stated, Symmetry, ies, ldt, tm33};
+
+/// Share of the flux that may be on the other side of the horizon by interpolation.
+const HORIZON: f64 = 5e-3;
 
 /// Who measures.
 const LABORATORY: &str = "gonio virtual goniophotometer";
@@ -18,12 +21,16 @@ pub struct Reduced {
     pub goniogram: Goniogram,
     /// Standard errors in cd of the goniogram's intensities, in their order.
     pub errors: Vec<f64>,
+    /// Intensities by two independent halves of the measurement, if it has them.
+    pub(super) halves: Option<[Vec<f64>; 2]>,
     /// The symmetries that were tested, the one that holds last.
     pub tests: Vec<SymmetryTest>,
     /// Luminous flux in lm that left the luminaire, counted without regard to angles.
     pub flux: f64,
     /// Its standard error in lm.
     pub flux_error: f64,
+    /// Share of it that goes below the horizontal plane, if that was counted apart.
+    pub(super) counted_below: Option<WithError>,
     /// Luminous flux in lm that the sources emit.
     pub source_flux: f64,
 }
@@ -32,8 +39,10 @@ impl Measurement {
     /// The goniogram with the highest symmetry that the errors bear out, or with the one that is named: each intensity is the mean over what
     /// the symmetry makes equal, its error the root of the sum of squares over their number.
     ///
-    /// A warning tells where the angles are too coarse for the intensities to hold the counted flux within 2 %, and where a named symmetry
-    /// is not borne out.
+    /// Intensities never hold more than the sources emit: where interpolation makes more of them, they are lowered by that.
+    ///
+    /// Warnings tell where the angles are too coarse for the intensities to hold the counted flux within 2 %, where they put light on the other side of
+    /// the horizon, and where a named symmetry is not borne out.
     ///
     /// # Errors
     /// A measurement that makes no sense, or planes that cannot have the symmetry: two planes need a number that four divides, one plane
@@ -49,10 +58,32 @@ impl Measurement {
             return Err(FormatError::whole(problem));
         };
         let (intensities, errors) = whole.means(&groups);
-        let mut goniogram = whole.goniogram(symmetry, groups.iter().map(|(c, _)| *c).collect(), intensities);
-        goniogram.stated.downward_fraction = Some(goniogram.flux_below() / goniogram.flux()).filter(|share| share.is_finite());
-        whole.warn(&mut goniogram, &tests);
-        Ok(Reduced { goniogram, errors, tests, flux: self.flux, flux_error: self.flux_error, source_flux: self.source_flux })
+        let halves = whole
+            .halves
+            .as_ref()
+            .map(|halves| halves.each_ref().map(|half| Self { intensities: half.clone(), halves: None, ..whole.clone() }.means(&groups).0));
+        let goniogram = whole.goniogram(symmetry, groups.iter().map(|(c, _)| *c).collect(), intensities);
+        let mut reduced = Reduced {
+            goniogram,
+            errors,
+            halves,
+            tests,
+            flux: self.flux,
+            flux_error: self.flux_error,
+            counted_below: self.counted_below(),
+            source_flux: self.source_flux,
+        };
+        let below = reduced.share_below();
+        reduced.goniogram.stated.downward_fraction = Some(below.value).filter(|_| self.flux > 0.0);
+        reduced.warn();
+        reduced.bound();
+        Ok(reduced)
+    }
+
+    /// The share of the flux that was counted below the horizontal plane.
+    fn counted_below(&self) -> Option<WithError> {
+        let [up, error] = self.flux_up?;
+        (self.flux > 0.0).then(|| WithError { value: (1.0 - up / self.flux).clamp(0.0, 1.0), error: error / self.flux })
     }
 
     /// Means and errors of groups of planes. At the poles all planes are one direction.
@@ -86,19 +117,20 @@ impl Measurement {
             ..LampSet::default()
         };
         // EULUMDAT's length runs along C90–C270, and a width of 0 is round.
-        let body = self.body.map_or([0.0; 3], |[x, y, z]| if self.round && x == y { [x, 0.0, z] } else { [y, x, z] });
+        let round = self.opening.is_round() && self.opening.size[0] > 0.0;
+        let body = self.body.map_or([0.0; 3], |[x, y, z]| if round && x == y { [x, 0.0, z] } else { [y, x, z] });
         Goniogram {
             photometric_type: PhotometricType::C,
             symmetry,
             horizontal,
             vertical: self.gammas.clone(),
             intensities,
-            opening: self.luminous_opening(),
+            opening: self.opening,
             body,
             lamp_sets: vec![lamps],
             lamp_set: 0,
             tilt: None,
-            stated: Stated { light_output_ratio: emits.then(|| self.flux / self.source_flux), ..Stated::default() },
+            stated: Stated { light_output_ratio: emits.then(|| (self.flux / self.source_flux).min(1.0)), ..Stated::default() },
             header: self.header(),
             warnings: Vec::new(),
         }
@@ -118,7 +150,11 @@ impl Measurement {
             texts.iter().filter(|(_, text)| !text.trim().is_empty()).map(|(keyword, text)| line(keyword, text)).collect();
         lines.push(line("TESTLAB", LABORATORY));
         if self.source_flux > 0.0 {
-            let ratio = format!("{:.2} % of {} lm that the sources emit", 100.0 * self.flux / self.source_flux, number(self.source_flux));
+            let ratio = format!(
+                "{:.2} % of {} lm that the sources emit",
+                100.0 * (self.flux / self.source_flux).min(1.0),
+                number(self.source_flux)
+            );
             lines.push(line("OTHER", &format!("light output ratio {ratio}")));
         }
         if let Some(kelvin) = self.colour_temperature {
@@ -126,28 +162,48 @@ impl Measurement {
         }
         lines
     }
+}
 
-    fn warn(&self, goniogram: &mut Goniogram, tests: &[SymmetryTest]) {
-        let flux = goniogram.flux();
+impl Reduced {
+    fn warn(&mut self) {
+        let flux = self.goniogram.flux();
+        let mut warnings = Vec::new();
         if flux <= 0.0 {
-            goniogram.warnings.push(FormatError::whole("all intensities are 0"));
+            warnings.push("all intensities are 0".to_owned());
         } else if (flux / self.flux - 1.0).abs() > TOLERANCE + 3.0 * self.flux_error / self.flux {
-            let problem = format!("{:.1} lm were counted, but the intensities' flux is {flux:.1} lm: finer angles are needed", self.flux);
-            goniogram.warnings.push(FormatError::whole(problem));
+            warnings.push(format!("{:.1} lm were counted, but the intensities' flux is {flux:.1} lm: finer angles are needed", self.flux));
         }
-        if let Some(test) = tests.last().filter(|test| !test.holds && test.symmetry == goniogram.symmetry) {
-            let problem = format!(
+        let by_table = self.share_by_intensities();
+        if let Some(counted) = self.counted_below.filter(|_| flux > 0.0)
+            && (counted.value - by_table.value).abs() > HORIZON + 3.0 * by_table.error.max(counted.error)
+        {
+            let [counted, by_table] = [counted, by_table].map(|share| 100.0 * share.value);
+            warnings.push(format!(
+                "{counted:.1} % of the light was counted below the horizon, but the intensities put {by_table:.1} % there: γ = 90° is needed among \
+                 the angles, or finer ones"
+            ));
+        }
+        if let Some(test) = self.tests.last().filter(|test| !test.holds && test.symmetry == self.goniogram.symmetry) {
+            warnings.push(format!(
                 "{:?} symmetry is not what was measured: χ² is {:.2} per degree of freedom, the largest difference {:.1} standard errors",
                 test.symmetry,
                 test.chi_square.max(test.flux_chi_square),
                 test.largest
-            );
-            goniogram.warnings.push(FormatError::whole(problem));
+            ));
         }
+        self.goniogram.warnings.extend(warnings.into_iter().map(FormatError::whole));
     }
-}
 
-impl Reduced {
+    /// Lowers intensities whose flux is more than the sources emit.
+    fn bound(&mut self) {
+        let flux = self.goniogram.flux();
+        if self.source_flux <= 0.0 || flux <= self.source_flux {
+            return;
+        }
+        let lists = [&mut self.goniogram.intensities, &mut self.errors].into_iter().chain(self.halves.iter_mut().flatten());
+        lists.flatten().for_each(|value| *value *= self.source_flux / flux);
+    }
+
     /// The bytes of an EULUMDAT file: cd per 1000 lm of the sources' flux.
     pub fn to_ldt(&self) -> Vec<u8> {
         ldt::write(&self.goniogram)
