@@ -223,3 +223,33 @@ def test_all_light_of_odd_geometry_is_accounted_for(run, lamp, kind, shape):
     assert found["emitted_lm"] == pytest.approx(1000, rel=1e-3)
     assert found["emitted_lm"] == pytest.approx(found["flux_lm"] + found["absorbed_lm"] + found["cut_off_lm"], rel=1e-9)
     assert found["flux_lm"] > 100, found
+
+
+def test_a_beam_aside_is_told(run, lamp, tmp_path):
+    # Tilted by 40° towards C 60°.
+    aslant = 'float3 xformOp:rotateXYZ = (0, -40, 60)\n            uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]'
+    ldt = tmp_path / "lamp.ldt"
+    options = ("--rays", "2M", "--error", "0")
+    done = run("goniometer", lamp(light=aslant), "-l", "/World/Lamp", *options, "-o", ldt)
+    assert done.returncode == 0, done.stderr
+    assert "the beam's axis lies in neither plane" in done.stdout and any(f"C{c}–C{c + 180}" in done.stdout for c in (59, 60, 61)), done.stdout
+    read = run("photometry", ldt, "--json")
+    aside = json.loads(read.stdout)["beam_aside"]
+    assert aside["c_deg"] == pytest.approx(60, abs=1)
+    # Straight down there is nothing to be told.
+    done = run("goniometer", lamp(), "-l", "/World/Lamp", *options, "--json")
+    assert json.loads(done.stdout)["beam_aside"] is None
+
+
+def test_angles_without_an_end_have_no_error(run, lamp):
+    bulb = 'def SphereLight "Bulb"\n        {\n            float inputs:radius = 5\n        }'
+    done = run("goniometer", lamp(light='token visibility = "invisible"', part=bulb), "-l", "/World/Lamp", "--rays", "1M", "--error", "0")
+    assert done.returncode == 0, done.stderr
+    line = next(line for line in done.stdout.splitlines() if line.startswith("beam angle"))
+    assert line.count("180.0° (to the horizon)") == 2 and "±" not in line, done.stdout
+
+
+def test_seeds_give_other_measurements(run, lamp):
+    options = ("-l", "/World/Lamp", "--rays", "300k", "--error", "0", "--json")
+    one, other, again = (json.loads(run("goniometer", lamp(), *options, "--seed", seed).stdout)["intensities_cd"] for seed in ("1", "2", "1"))
+    assert one == again and one != other

@@ -60,7 +60,7 @@ impl Source {
 ///
 /// c_step, g_step: degrees from plane to plane and from γ to γ, or `gammas` in degrees; error: relative standard error of the peak and of the
 /// flux at which it stops, 0 for all `rays`; time_limit: seconds; symmetry: that of the files, by whose averaged planes it stops, as `write` takes it; screen: distance below the luminaire, width along C0, height along C90, and
-/// columns and rows, on which illuminance is measured too; progress: a function of rays, their most, the peak's relative error or None, and
+/// columns and rows, on which illuminance is measured too; seed: of the random numbers; progress: a function of rays, their most, the peak's relative error or None, and
 /// seconds, which is called every 50 ms and ends the measurement by returning False.
 #[pyfunction]
 #[pyo3(signature = (source, luminaire = None, *, frame = None, down = [0.0, 0.0, -1.0], c0 = [1.0, 0.0, 0.0], c_step = 15.0, g_step = 5.0, gammas = None, error = 0.01, rays = 200_000_000, time_limit = None, symmetry = "auto", screen = None, seed = 0, threads = 0, progress = None))]

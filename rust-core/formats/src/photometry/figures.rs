@@ -11,6 +11,10 @@ const EQUAL: f64 = 1e-3;
 /// Share of the greatest intensity that neither C0–C180 nor C90–C270 reaches where the beam's axis lies aside.
 pub(crate) const MISSED: f64 = 0.95;
 
+/// Share of the flux, and standard errors, that both horizontal parts of light that leans aside exceed.
+const LEANING: f64 = 0.05;
+const LEANING_ERRORS: f64 = 4.0;
+
 /// Figures of a goniogram.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figures {
@@ -76,7 +80,7 @@ impl Goniogram {
         let watts = lamps.map(|lamps| lamps.watts).filter(|watts| *watts > 0.0);
         let tops = [0.0, 90.0].map(|c| self.cut(c).iter().map(|point| point[1]).fold(0.0, f64::max));
         let (peak, direction) = (self.peak(), self.peak_direction());
-        let missed = tops.iter().all(|top| *top < MISSED * peak);
+        let missed = tops.iter().all(|top| *top < MISSED * peak).then_some(direction[0]);
         Figures {
             flux,
             downward_fraction: if flux > 0.0 { self.flux_below() / flux } else { 0.0 },
@@ -87,7 +91,7 @@ impl Goniogram {
             peak_direction: direction,
             beam: [self.spread(0.0, 0.5, None), self.spread(90.0, 0.5, None)],
             field: [self.spread(0.0, 0.1, None), self.spread(90.0, 0.1, None)],
-            aside: missed.then(|| self.aside(direction[0], None)),
+            aside: self.leaning(None).or(missed).map(|c| self.aside(c, None)),
             symmetry: self.symmetry_found(EQUAL),
         }
     }
@@ -95,6 +99,30 @@ impl Goniogram {
     /// The range of directions in the planes C(c) and the one across from it whose intensity reaches a share of the greatest there, or of `top` cd.
     pub(crate) fn spread(&self, c: f64, share: f64, top: Option<f64>) -> Spread {
         spread(&self.cut_with_horizon(c), share, top)
+    }
+
+    /// The C plane, in whole degrees, to which the light leans as a whole, if it lies aside of C0–C180 and C90–C270: by the sum of intensities as vectors,
+    /// whose both horizontal parts are more than a twentieth of the flux, and more than four of the standard errors that `errors` tell.
+    pub(crate) fn leaning(&self, errors: Option<&[f64]>) -> Option<f64> {
+        let own = self.to_type_c();
+        // Any symmetry leans within its planes.
+        if own.symmetry != Symmetry::None {
+            return None;
+        }
+        let (weights, count) = (own.flux_weights([0.0, 180.0]), own.vertical.len().max(1));
+        let direction = |i: usize| PhotometricType::C.direction(own.horizontal[i / count], own.vertical[i % count]);
+        let along = |axis: usize| {
+            let terms = weights.iter().enumerate().map(|(i, weight)| {
+                let error = errors.and_then(|errors| errors.get(i)).copied().unwrap_or(0.0);
+                let share = weight * direction(i)[axis];
+                [share * own.intensities[i], (share * error).powi(2)]
+            });
+            terms.fold([0.0; 2], |[sum, variance], [value, square]| [sum + value, variance + square])
+        };
+        let (x, y) = (along(0), along(1));
+        let least = LEANING * own.flux();
+        let sure = |[sum, variance]: [f64; 2]| sum.abs() > least.max(LEANING_ERRORS * variance.sqrt());
+        (sure(x) && sure(y)).then(|| y[0].atan2(x[0]).to_degrees().round().rem_euclid(360.0))
     }
 
     /// The beam in its own plane.

@@ -2,7 +2,7 @@
 
 use super::Reduced;
 use crate::photometry::figures::MISSED;
-use crate::photometry::{Aside, Goniogram, Spread};
+use crate::photometry::{Aside, Goniogram, Spread, Symmetry};
 
 /// A value and its standard error.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -26,7 +26,7 @@ pub struct MeasuredSpread {
 /// Standard errors by which one intensity is above another without doubt.
 const SURE: f64 = 3.0;
 /// Standard errors that are taken off intensities where the greatest is looked for: else the least exact ones would win.
-const CAUTION: f64 = 2.0;
+const CAUTION: f64 = 1.0;
 /// Share of an angle above which its standard error tells nothing.
 const UNKNOWN: f64 = 0.5;
 
@@ -70,6 +70,7 @@ impl Reduced {
             })
         };
         let missed = tops.iter().all(|top| top.value + SURE * top.error.hypot(peak.error) < MISSED * peak.value);
+        let aside = self.goniogram.leaning(Some(&self.errors)).or(missed.then_some(peak_direction[0]));
         let emits = self.source_flux > 0.0;
         MeasuredFigures {
             flux: WithError { value: self.flux, error: self.flux_error },
@@ -80,37 +81,38 @@ impl Reduced {
             peak_direction,
             beam: spreads(0.5),
             field: spreads(0.1),
-            aside: missed.then(|| self.goniogram.aside(peak_direction[0], Some(peak.value))),
+            aside: aside.map(|c| self.goniogram.aside(c, None)),
         }
     }
 
     /// The place of the greatest intensity among those of the goniogram, and the intensity.
     fn peak(&self) -> (usize, WithError) {
         let values = &self.goniogram.intensities;
-        let place = greatest(values.iter().zip(&self.errors).map(|(value, error)| value - CAUTION * error));
-        (place, self.greatest_of(values, self.halves.as_ref().map(|halves| halves.each_ref().map(|half| &half[..])), &self.errors))
+        let halves = self.halves.as_ref().map(|halves| halves.each_ref().map(|half| &half[..]));
+        let circle = self.goniogram.symmetry == Symmetry::None;
+        let place = likely(values, &self.errors, self.goniogram.vertical.len(), circle, CAUTION);
+        (place, self.greatest_of(values, halves, &self.errors, self.goniogram.vertical.len()))
     }
 
     /// The greatest intensity in the plane through C(c), in the hemisphere that has it.
     fn top(&self, errors: &Goniogram, c: f64) -> WithError {
         let cut = |goniogram: &Goniogram| goniogram.cut(c).into_iter().map(|point| point[1]).collect::<Vec<_>>();
-        let halves = self
-            .halves
-            .as_ref()
-            .map(|halves| halves.each_ref().map(|half| cut(&Goniogram { intensities: half.clone(), ..self.goniogram.clone() })));
+        let of_half = |half: &Vec<f64>| cut(&Goniogram { intensities: half.clone(), ..self.goniogram.clone() });
+        let halves = self.halves.as_ref().map(|halves| halves.each_ref().map(of_half));
         let halves = halves.as_ref().map(|halves| halves.each_ref().map(|half| &half[..]));
-        self.greatest_of(&cut(&self.goniogram), halves, &cut(errors))
+        let values = cut(&self.goniogram);
+        self.greatest_of(&values, halves, &cut(errors), values.len())
     }
 
-    /// The greatest of noisy values: chosen by one half and told by the other, both ways; without halves the greatest.
-    fn greatest_of(&self, values: &[f64], halves: Option<[&[f64]; 2]>, errors: &[f64]) -> WithError {
+    /// The greatest of noisy values in rows: chosen by one half and told by the other, both ways; without halves the greatest.
+    fn greatest_of(&self, values: &[f64], halves: Option<[&[f64]; 2]>, errors: &[f64], row: usize) -> WithError {
         let Some(halves) = halves else {
             let place = greatest(values.iter().copied());
             return WithError { value: values.get(place).copied().unwrap_or(0.0), error: errors.get(place).copied().unwrap_or(0.0) };
         };
+        let circle = self.goniogram.symmetry == Symmetry::None;
         // Half of the measurement has √2 times the error.
-        let doubt = CAUTION * std::f64::consts::SQRT_2;
-        let [first, second] = halves.map(|half| greatest(half.iter().zip(errors).map(|(value, error)| value - doubt * error)));
+        let [first, second] = halves.map(|half| likely(half, errors, row, circle, CAUTION * std::f64::consts::SQRT_2));
         let error = (0.5 * (errors[first].powi(2) + errors[second].powi(2))).sqrt();
         WithError { value: 0.5 * (halves[1][first] + halves[0][second]), error }
     }
@@ -160,6 +162,26 @@ impl Reduced {
         let own = ((1.0 - t) * at(errors, c, low)).powi(2) + (t * at(errors, c, high)).powi(2);
         (slope != 0.0).then(|| (own + of_level * of_level) / (slope * slope))
     }
+}
+
+/// Where the greatest of noisy values in rows most likely is: of their means with their neighbours, one quarter, half and quarter each way, and with some of
+/// their errors taken off. Rows close a circle or are mirrored at both ends.
+fn likely(values: &[f64], errors: &[f64], row: usize, circle: bool, caution: f64) -> usize {
+    let (row, rows) = (row.max(1), values.len() / row.max(1));
+    let mirrored = |at: usize, count: usize| {
+        [at.checked_sub(1).unwrap_or(1.min(count - 1)), at, if at + 1 < count { at + 1 } else { count.saturating_sub(2) }]
+    };
+    let along = |r: usize, at: usize| {
+        let [before, own, after] = mirrored(at, row).map(|at| values[r * row + at]);
+        0.25 * before + 0.5 * own + 0.25 * after
+    };
+    let mean = |place: usize| {
+        let (r, at) = (place / row, place % row);
+        let near = if circle { [(r + rows - 1) % rows, r, (r + 1) % rows] } else { mirrored(r, rows) };
+        let [before, own, after] = near.map(|r| along(r, at));
+        0.25 * before + 0.5 * own + 0.25 * after
+    };
+    greatest((0..rows * row).map(|place| mean(place) - caution * errors[place]))
 }
 
 /// The place of the greatest number; the first without numbers.
