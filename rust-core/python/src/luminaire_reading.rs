@@ -115,7 +115,7 @@ impl LuminaireReading {
     fn opening_parts(&self) -> Vec<([f64; 3], [f64; 3])> {
         self.reading.opening.parts.iter().map(|part| (*part).into()).collect()
     }
-    /// Luminous square metres that are seen from below, or from above where that is more.
+    /// Luminous square metres that are seen from below, or from above of what shines up alone.
     #[getter]
     fn opening_area(&self) -> f64 {
         self.reading.opening.area

@@ -13,6 +13,8 @@ pub(super) const DIRECTIONS: usize = 2 + 4 * GAMMAS.len();
 const NEAR: f64 = 0.03;
 /// Extents that differ by less are equal.
 const EQUAL: f64 = 0.02;
+/// Share of what is seen from above below which what is seen from below is none.
+const UP: f64 = 0.05;
 /// Share of the largest area below which areas are alike.
 const FAINT: f64 = 0.02;
 
@@ -27,9 +29,14 @@ impl Seen {
         all.fold(Self::default(), |sum, one| Self { areas: std::array::from_fn(|i| sum.areas[i] + one.areas[i]) })
     }
 
-    /// From below, or from above where that is more.
+    /// Whether it shines up alone, or nearly so.
+    pub(super) fn looks_up(&self) -> bool {
+        self.areas[0] < UP * self.areas[1]
+    }
+
+    /// From below, where eyes are, or from above of what shines up alone.
     pub(super) fn floor(&self) -> f64 {
-        self.areas[0].max(self.areas[1])
+        self.areas[usize::from(self.looks_up())]
     }
 
     /// From a side, C0, C90, C180 and C270, at a γ of [`GAMMAS`].

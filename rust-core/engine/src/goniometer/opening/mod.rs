@@ -39,7 +39,7 @@ pub struct Opening {
     pub bounds: Extent,
     /// The box about each part that shines apart from the others; one for most luminaires.
     pub parts: Vec<Extent>,
-    /// Luminous square metres that are seen from below, or from above where that is more.
+    /// Luminous square metres that are seen from below, or from above of what shines up alone.
     pub area: f64,
     /// What files say of it: about the origin, with the projected areas that were seen.
     pub shape: FileOpening,
@@ -81,7 +81,7 @@ impl Opening {
 /// What shines in one piece.
 struct Part {
     extent: Extent,
-    /// Whether it is a disk or an ellipse seen from where it is largest, below or above.
+    /// Whether it is a disk or an ellipse seen from below, or from above of what shines up alone.
     elliptic: bool,
     seen: Seen,
 }
@@ -101,8 +101,8 @@ impl Part {
         // Both are no less than what is seen: through the hull, and of the places themselves. A hull fills rings and frames.
         let has_hole = itself[0].area < HOLE * through[0].area.max(through[1].area);
         let shadows = if has_hole { itself } else { through };
-        let elliptic = shadows[usize::from(shadows[1].area > shadows[0].area)].elliptic;
         let seen = Seen { areas: shadows.map(|shadow| shadow.area) };
+        let elliptic = shadows[usize::from(seen.looks_up())].elliptic;
         Self { extent: extent_of(&places).unwrap_or_default(), elliptic, seen }
     }
 
@@ -111,7 +111,7 @@ impl Part {
         let (size, middle, largest) = (size_of(&self.extent), middle(&self.extent), largest_of(&self.extent));
         let mut bounds = [0, 1].map(|end| [0, 1, 2].map(|k| if size[k] <= FLAT * largest { middle[k] } else { self.extent[end][k] }));
         if size[2] <= RIM * largest && fit::file_opening(size, self.elliptic, &self.seen).heights == [0.0; 4] {
-            let mouth = self.extent[usize::from(self.seen.areas[1] > self.seen.areas[0])][2];
+            let mouth = self.extent[usize::from(self.seen.looks_up())][2];
             bounds.iter_mut().for_each(|end| end[2] = mouth);
         }
         bounds

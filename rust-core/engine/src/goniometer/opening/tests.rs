@@ -106,3 +106,17 @@ fn strays_are_no_part() {
     assert_eq!(opening.parts.len(), 1);
     near(opening.area, 1.0, 0.03);
 }
+
+#[test]
+fn light_that_goes_up_does_not_widen_what_is_seen_from_below() {
+    let square = |side: f64, z: f64| down(move |[a, b]| Some([side * (a - 0.5), side * (b - 0.5), z]));
+    let upwards = |light: Vec<Departure>| light.into_iter().map(|ray| Departure { direction: ray.direction.map(|x| -x), ..ray });
+    let both: Vec<Departure> = square(0.2, 0.0).into_iter().chain(upwards(square(0.4, 0.1))).collect();
+    let opening = Opening::of(&both);
+    near(opening.area, 0.04, 0.03);
+    near(opening.shape.projected_area([0.0, 0.0, -1.0]), 0.04, 0.03);
+    // Up alone there is nothing else.
+    let up = Opening::of(&upwards(square(0.4, 0.1)).collect::<Vec<_>>());
+    near(up.area, 0.16, 0.03);
+    near(up.centre()[2], 0.1, 0.01);
+}
