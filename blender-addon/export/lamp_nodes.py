@@ -127,7 +127,10 @@ class Light:
             found = iter(evaluate(t.graph, factors, self._normal[piece].shape, self._leaf(t, piece)))
             for product in products:
                 total[piece] += np.prod([next(found) for _ in product], axis=0)[:, :3]
-        return np.maximum(np.nan_to_num(total, posinf=0.0), 0.0)
+        total = np.nan_to_num(total, posinf=0.0, neginf=0.0)
+        if total.min() < 0.0 and t.goniogram is None:
+            t.tell("negative light", active_output(t.root.tree, "Light"), t.root, "Strength that is negative in parts")
+        return np.maximum(total, 0.0)
 
     def mean(self, t, products):
         """The mean of that."""

@@ -57,7 +57,8 @@ def linked_instances() -> None:
     even_world(0.15)
     plane(diffuse((0.6, 0.6, 0.6)))
     inside = bpy.data.collections.new("Inside")
-    for thing in (ball(principled(Base_Color=(0.7, 0.7, 0.7), Roughness=0.5), 0.3, location=(0.0, 0.0, 0.9)), box(diffuse(), 0.6, location=(0.0, 0.0, 0.3))):
+    plastic = principled(Base_Color=(0.7, 0.7, 0.7), Roughness=0.5)
+    for thing in (ball(plastic, 0.3, location=(0.0, 0.0, 0.9)), box(diffuse(), 0.6, location=(0.0, 0.0, 0.3))):
         bpy.context.scene.collection.objects.unlink(thing)
         inside.objects.link(thing)
     holders = [link(f"Holder {n}", None, location=(1.3 * n - 1.3, 0.0, 0.0), rotation=(0.0, 0.0, 0.3 * n)) for n in range(3)]
