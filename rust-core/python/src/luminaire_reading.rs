@@ -94,8 +94,8 @@ impl LuminaireReading {
     fn flux_up(&self) -> Reading {
         with_error(self.reading.fluxes.up)
     }
-    /// The greatest intensity in cd, with the symmetry of the files. It is chosen by one half of the rays and told by the other, so that noise does not
-    /// raise it.
+    /// The greatest intensity in cd, with the symmetry of the files. Its direction is chosen by its neighbours, so that noise does not raise
+    /// it.
     #[getter]
     fn peak(&self) -> Reading {
         with_error(self.reading.peak)

@@ -71,8 +71,6 @@ pub struct Reading {
     pub intensities: Vec<f64>,
     /// Their standard errors in cd.
     pub errors: Vec<f64>,
-    /// The same intensities by the batches of even and of odd numbers.
-    pub halves: [Vec<f64>; 2],
     /// The greatest intensity in cd, by the symmetry of the files: noise does not raise it.
     pub peak: Value,
     /// C and γ of it in degrees.
@@ -138,7 +136,6 @@ impl Reading {
             flux: self.fluxes.escaped.value,
             flux_error: self.fluxes.escaped.error,
             flux_up: Some([self.fluxes.up.value, self.fluxes.up.error]),
-            halves: Some(self.halves.clone()),
             opening: self.opening.shape,
             body: Some(body),
             watts,

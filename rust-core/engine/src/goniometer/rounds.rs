@@ -11,7 +11,7 @@ use super::{
 use crate::{
     compile::{Bounds, CompiledScene},
     error::{Error, Result},
-    light_paths::{Channels, Estimate, Job, Progress, Watch, trace_batches},
+    light_paths::{Estimate, Job, Progress, Watch, trace_batches},
     transport::{Arriving, Emission, LIGHT_BATCH, LightTracer, Statistics, Transport, Wanted},
 };
 use gonio_formats::photometry::measured::Measurement;
@@ -101,36 +101,16 @@ impl<'a> Run<'a> {
         self.sum(|tally| tally.flux(flux, self.batches))
     }
 
-    /// The flux by direction that a tally tells of cells, as intensities at angles by their numbers.
-    fn intensity(&self, plane: usize, gamma: usize, flux: impl Fn(usize) -> Estimate) -> Estimate {
+    /// Intensity at angles by their numbers.
+    fn intensity(&self, plane: usize, gamma: usize) -> Estimate {
         let (below, above) = self.instrument.cells.of(plane, gamma);
-        let of = |(cell, solid_angle): Cell| flux(cell).scaled(1.0 / solid_angle);
+        let of = |(cell, solid_angle): Cell| self.sum(|tally| tally.direction(cell, self.batches)).scaled(1.0 / solid_angle);
         above.map_or_else(|| of(below), |above| at_horizon(&of(below), &of(above)))
     }
 
-    fn all(&self, flux: impl Fn(usize) -> Estimate) -> Vec<Estimate> {
-        let gammas = self.options.angles.gamma.len();
-        (0..self.options.angles.c.len() * gammas).map(|i| self.intensity(i / gammas, i % gammas, &flux)).collect()
-    }
-
     fn intensities(&self) -> Vec<Estimate> {
-        self.all(|cell| self.sum(|tally| tally.direction(cell, self.batches)))
-    }
-
-    /// Luminous intensities by the batches of even and of odd numbers.
-    fn halves(&self) -> [Vec<f64>; 2] {
-        let odd = |tally: &Tally<'a>, cell: usize| tally.odd_direction(cell, self.batches);
-        // Their number is even but for the last round.
-        let share = (self.batches / 2).max(1) as f64 / self.batches as f64;
-        let even = |tally: &Tally<'a>, cell: usize| {
-            let (all, odd) = (tally.direction(cell, self.batches).mean, odd(tally, cell));
-            [0, 1, 2].map(|k| ((all[k] - share * odd[k]) / (1.0 - share)).max(0.0))
-        };
-        let half = |mean: &dyn Fn(&Tally<'a>, usize) -> Channels| {
-            let flux = |cell: usize| self.sum(|tally| Estimate { mean: mean(tally, cell), variance: 0.0 });
-            self.all(flux).iter().map(Estimate::luminance).collect()
-        };
-        [half(&even), half(&odd)]
+        let gammas = self.options.angles.gamma.len();
+        (0..self.options.angles.c.len() * gammas).map(|i| self.intensity(i / gammas, i % gammas)).collect()
     }
 
     /// The greatest intensity as files will have it, by the symmetry that they will have, and its direction.
@@ -142,7 +122,6 @@ impl<'a> Run<'a> {
             gammas: self.options.angles.gamma.clone(),
             intensities: estimates.iter().map(Estimate::luminance).collect(),
             errors: estimates.iter().map(Estimate::error).collect(),
-            halves: Some(self.halves()),
             source_flux: emitted.luminance(),
             flux: escaped.luminance().min(emitted.luminance()),
             flux_error: escaped.error(),
@@ -173,7 +152,6 @@ impl<'a> Run<'a> {
             rgb: estimates.iter().map(|estimate| estimate.mean).collect(),
             intensities: estimates.iter().map(Estimate::luminance).collect(),
             errors: estimates.iter().map(Estimate::error).collect(),
-            halves: self.halves(),
             peak,
             peak_direction,
             fluxes: Fluxes {

@@ -7,7 +7,7 @@ use super::{
     screen::ScreenPlane,
 };
 use crate::{
-    light_paths::{Batch, BatchEstimates, Channels, Collector, Estimate, FixedSums, WorkerSums},
+    light_paths::{Batch, BatchEstimates, Channels, Collector, Estimate, WorkerSums},
     transport::{Arrivals, Escapes, LIGHT_BATCH, Receiver},
 };
 use gonio_simd::{Column, Execution, Lanes, Vec3, dispatch};
@@ -47,8 +47,6 @@ pub(super) struct Tally<'a> {
     directions: BatchEstimates,
     screen: BatchEstimates,
     fluxes: BatchEstimates,
-    /// Of directions, what batches of odd numbers brought: half of all, so that one half tells what the other's noise is.
-    odd: FixedSums,
     departures: Sample,
 }
 
@@ -91,7 +89,6 @@ impl<'a> Tally<'a> {
             directions: estimates(instrument.cells.len()),
             screen: estimates(instrument.screen.as_ref().map_or(0, ScreenPlane::len)),
             fluxes: estimates(FLUXES),
-            odd: FixedSums::new(instrument.cells.len(), power, most),
             departures: Sample::default(),
         }
     }
@@ -109,12 +106,6 @@ impl<'a> Tally<'a> {
     /// A flux.
     pub(super) fn flux(&self, flux: Flux, batches: u64) -> Estimate {
         self.fluxes.get(flux as usize, batches, LIGHT_BATCH)
-    }
-
-    /// Flux into a cell of directions by the half of all batches whose numbers are odd; there must be one.
-    pub(super) fn odd_direction(&self, cell: usize, batches: u64) -> Channels {
-        let paths = (batches / 2).max(1) as f64 * LIGHT_BATCH as f64;
-        self.odd.get(cell).map(|sum| sum / paths)
     }
 
     /// Where light leaves.
@@ -148,9 +139,6 @@ impl<'a> Collector for Tally<'a> {
         let fluxes =
             [(Flux::Emitted, emitted), (Flux::Escaped, escaped), (Flux::Up, up), (Flux::CutOff, cut_off), (Flux::Absorbed, absorbed)];
         fluxes.into_iter().for_each(|(flux, value)| room.fluxes.add(flux as usize, value));
-        if batch.number % 2 == 1 {
-            room.directions.of_batch().for_each(|(cell, value)| self.odd.add(cell, value));
-        }
         if let Some(departures) = &mut room.departures {
             self.departures.add(batch.number, std::mem::take(departures));
         }

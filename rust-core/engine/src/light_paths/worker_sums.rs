@@ -41,11 +41,6 @@ impl WorkerSums {
         }
     }
 
-    /// What the batch under way has brought, by cell.
-    pub fn of_batch(&self) -> impl Iterator<Item = (usize, Channels)> + '_ {
-        self.touched.iter().map(|cell| (*cell as usize, self.values[*cell as usize]))
-    }
-
     /// Ends the batch; `sums` have the units.
     pub(super) fn complete(&mut self, sums: &FixedSums) {
         for cell in self.touched.drain(..) {

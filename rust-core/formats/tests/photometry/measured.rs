@@ -269,20 +269,11 @@ fn direct_ratios_are_those_of_makers() {
     close(lambertian.direct_ratios()[2], 0.4153, 2e-3);
 }
 
-/// The same with halves of its own noise, each with √2 times the errors.
-fn halved(intensity: impl Fn(f64, f64) -> f64 + Copy, noise: f64, seed: u64) -> Measurement {
-    let [first, second] = [0, 1].map(|half| measured(intensity, noise * 2.0_f64.sqrt(), 2 * seed + half));
-    let mean = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| 0.5 * (a + b)).collect::<Vec<_>>();
-    let intensities = mean(&first.intensities, &second.intensities);
-    let errors = first.errors.iter().map(|error| error / 2.0_f64.sqrt()).collect();
-    Measurement { intensities, errors, halves: Some([first.intensities.clone(), second.intensities]), ..first }
-}
-
 #[test]
 fn noise_does_not_raise_the_peak() {
     let runs = |intensity: fn(f64, f64) -> f64, symmetry: Symmetry| {
         let all = (0..50).map(|seed| {
-            let reduced = halved(intensity, 0.5, seed).reduced(Some(symmetry)).unwrap();
+            let reduced = measured(intensity, 0.5, seed).reduced(Some(symmetry)).unwrap();
             let figures = reduced.figures();
             [figures.peak.value, reduced.goniogram.peak(), figures.peak.error, figures.beam[0].spread.angle()]
         });
@@ -304,14 +295,14 @@ fn angles_without_an_end_have_no_error() {
     // Without a fall there is none, and what noise hides is not defined: never thousands of degrees.
     for (intensity, noise, seeds) in [((|_, _| 100.0) as fn(f64, f64) -> f64, 0.3, 5), (|_, gamma| 100.0 + 0.01 * gamma, 0.5, 5)] {
         for seed in 0..seeds {
-            let figures = halved(intensity, noise, seed).reduced(None).unwrap().figures();
+            let figures = measured(intensity, noise, seed).reduced(None).unwrap().figures();
             for found in figures.beam.iter().chain(&figures.field) {
                 assert!(found.error.is_none_or(|error| error <= 0.5 * found.spread.angle()), "{found:?}");
                 assert_eq!((found.spread.open, found.error), ([true; 2], None), "{found:?}");
             }
         }
     }
-    let figures = halved(|_, gamma| lobe(gamma), 0.3, 1).reduced(None).unwrap().figures();
+    let figures = measured(|_, gamma| lobe(gamma), 0.3, 1).reduced(None).unwrap().figures();
     assert!(figures.beam.iter().all(|found| found.spread.open == [false; 2] && found.error.is_some_and(|error| error < 5.0)));
 }
 

@@ -2,6 +2,7 @@
 
 use super::Reduced;
 use crate::photometry::figures::MISSED;
+use crate::photometry::grid::SAME;
 use crate::photometry::{Aside, Goniogram, Spread, Symmetry};
 
 /// A value and its standard error.
@@ -25,8 +26,10 @@ pub struct MeasuredSpread {
 
 /// Standard errors by which one intensity is above another without doubt.
 const SURE: f64 = 3.0;
-/// Standard errors that are taken off intensities where the greatest is looked for: else the least exact ones would win.
+/// Standard errors that are taken off intensities where the greatest is looked for.
 const CAUTION: f64 = 1.0;
+/// Standard errors by which no noise lets one of many intensities stand out.
+const CLEAR: f64 = 5.0;
 /// Share of an angle above which its standard error tells nothing.
 const UNKNOWN: f64 = 0.5;
 
@@ -41,7 +44,7 @@ pub struct MeasuredFigures {
     pub downward_fraction: WithError,
     /// Share of it above.
     pub upward_fraction: WithError,
-    /// The greatest intensity in cd: where one half of the measurement has it, by the other half, so that noise does not raise it.
+    /// The greatest intensity in cd, at the direction that its neighbours choose, so that noise does not raise it.
     pub peak: WithError,
     /// Its C plane and γ in degrees.
     pub peak_direction: [f64; 2],
@@ -87,34 +90,19 @@ impl Reduced {
 
     /// The place of the greatest intensity among those of the goniogram, and the intensity.
     fn peak(&self) -> (usize, WithError) {
-        let values = &self.goniogram.intensities;
-        let halves = self.halves.as_ref().map(|halves| halves.each_ref().map(|half| &half[..]));
         let circle = self.goniogram.symmetry == Symmetry::None;
-        let place = likely(values, &self.errors, self.goniogram.vertical.len(), circle, CAUTION);
-        (place, self.greatest_of(values, halves, &self.errors, self.goniogram.vertical.len()))
+        let pole = |gamma: usize| [0.0, 180.0].iter().any(|pole| (self.goniogram.vertical[gamma] - pole).abs() < SAME);
+        let (values, errors) = (&self.goniogram.intensities, &self.errors);
+        let place = likely(values, errors, self.goniogram.vertical.len(), circle, pole);
+        (place, WithError { value: values[place], error: errors[place] })
     }
 
-    /// The greatest intensity in the plane through C(c), in the hemisphere that has it.
+    /// The greatest intensity in the plane through C(c).
     fn top(&self, errors: &Goniogram, c: f64) -> WithError {
         let cut = |goniogram: &Goniogram| goniogram.cut(c).into_iter().map(|point| point[1]).collect::<Vec<_>>();
-        let of_half = |half: &Vec<f64>| cut(&Goniogram { intensities: half.clone(), ..self.goniogram.clone() });
-        let halves = self.halves.as_ref().map(|halves| halves.each_ref().map(of_half));
-        let halves = halves.as_ref().map(|halves| halves.each_ref().map(|half| &half[..]));
-        let values = cut(&self.goniogram);
-        self.greatest_of(&values, halves, &cut(errors), values.len())
-    }
-
-    /// The greatest of noisy values in rows: chosen by one half and told by the other, both ways; without halves the greatest.
-    fn greatest_of(&self, values: &[f64], halves: Option<[&[f64]; 2]>, errors: &[f64], row: usize) -> WithError {
-        let Some(halves) = halves else {
-            let place = greatest(values.iter().copied());
-            return WithError { value: values.get(place).copied().unwrap_or(0.0), error: errors.get(place).copied().unwrap_or(0.0) };
-        };
-        let circle = self.goniogram.symmetry == Symmetry::None;
-        // Half of the measurement has √2 times the error.
-        let [first, second] = halves.map(|half| likely(half, errors, row, circle, CAUTION * std::f64::consts::SQRT_2));
-        let error = (0.5 * (errors[first].powi(2) + errors[second].powi(2))).sqrt();
-        WithError { value: 0.5 * (halves[1][first] + halves[0][second]), error }
+        let (values, errors) = (cut(&self.goniogram), cut(errors));
+        let place = likely(&values, &errors, values.len(), false, |_| false);
+        WithError { value: values[place], error: errors[place] }
     }
 
     /// The share of the flux below the horizontal plane: as it was counted, or else by the intensities.
@@ -164,24 +152,26 @@ impl Reduced {
     }
 }
 
-/// Where the greatest of noisy values in rows most likely is: of their means with their neighbours, one quarter, half and quarter each way, and with some of
-/// their errors taken off. Rows close a circle or are mirrored at both ends.
-fn likely(values: &[f64], errors: &[f64], row: usize, circle: bool, caution: f64) -> usize {
+/// Where the greatest of noisy values in rows most likely is: chosen by neighbours, whose noise is not its own, so that its value has no bias. What stands
+/// out of its neighbours by more than noise counts itself. Some of the errors are taken off: else the least exact ones would win. Rows close a circle
+/// or are mirrored at both ends, and are one value at a pole.
+fn likely(values: &[f64], errors: &[f64], row: usize, circle: bool, pole: impl Fn(usize) -> bool) -> usize {
     let (row, rows) = (row.max(1), values.len() / row.max(1));
-    let mirrored = |at: usize, count: usize| {
-        [at.checked_sub(1).unwrap_or(1.min(count - 1)), at, if at + 1 < count { at + 1 } else { count.saturating_sub(2) }]
+    let near = |at: usize, count: usize| {
+        let [before, after] = [at.checked_sub(1).unwrap_or(1), if at + 1 < count { at + 1 } else { count.saturating_sub(2) }];
+        [before.min(count - 1), at, after]
     };
-    let along = |r: usize, at: usize| {
-        let [before, own, after] = mirrored(at, row).map(|at| values[r * row + at]);
-        0.25 * before + 0.5 * own + 0.25 * after
-    };
-    let mean = |place: usize| {
+    let score = |place: usize| {
         let (r, at) = (place / row, place % row);
-        let near = if circle { [(r + rows - 1) % rows, r, (r + 1) % rows] } else { mirrored(r, rows) };
-        let [before, own, after] = near.map(|r| along(r, at));
-        0.25 * before + 0.5 * own + 0.25 * after
+        let beside = if circle { [(r + rows - 1) % rows, r, (r + 1) % rows] } else { near(r, rows) };
+        let others = beside.into_iter().flat_map(|r| near(at, row).map(|at| r * row + at));
+        let others = others.filter(|other| *other != place && !(other % row == at && pole(at)));
+        let [sum, count] = others.fold([0.0; 2], |[sum, count], other| [sum + values[other], count + 1.0]);
+        let around = if count > 0.0 { sum / count } else { values[place] };
+        let stands_out = values[place] - around > CLEAR * errors[place];
+        (if stands_out { values[place] } else { around }) - CAUTION * errors[place]
     };
-    greatest((0..rows * row).map(|place| mean(place) - caution * errors[place]))
+    greatest((0..rows * row).map(score))
 }
 
 /// The place of the greatest number; the first without numbers.

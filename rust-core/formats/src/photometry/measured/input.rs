@@ -39,9 +39,6 @@ pub struct Measurement {
     pub flux_error: f64,
     /// Of the flux that left, what goes above the horizontal plane, and its standard error, in lm; `None` where it was not counted apart.
     pub flux_up: Option<[f64; 2]>,
-    /// Intensities by two halves of the measurement that are independent of each other, in the order of all; `None` where there are none. What is
-    /// chosen by one half is told by the other, without the bias that the greatest of noisy values has.
-    pub halves: Option<[Vec<f64>; 2]>,
     /// The luminous opening.
     pub opening: Opening,
     /// The whole luminaire's extents in metres along C0–C180, C90–C270 and upwards; `None` where they are not known.
@@ -79,8 +76,7 @@ impl Measurement {
     pub(super) fn checked(&self) -> Result<Self> {
         let (planes, gammas) = (self.planes.len(), self.gammas.len());
         let fail = |problem: String| Err(FormatError::whole(problem));
-        let halves = self.halves.iter().flatten().map(|half| ("halves' intensities", half));
-        for (name, values) in [("intensities", &self.intensities), ("standard errors", &self.errors)].into_iter().chain(halves) {
+        for (name, values) in [("intensities", &self.intensities), ("standard errors", &self.errors)] {
             if planes.checked_mul(gammas) != Some(values.len()) {
                 return fail(format!("{} {name} were given for {planes} C planes of {gammas} angles", values.len()));
             }
@@ -110,8 +106,8 @@ impl Measurement {
         let mut whole = self.clone();
         if planes > 1 && (self.planes[planes - 1] - 360.0).abs() < SAME {
             whole.planes.pop();
-            let lists = [&mut whole.intensities, &mut whole.errors].into_iter().chain(whole.halves.iter_mut().flatten());
-            lists.for_each(|list| list.truncate((planes - 1) * gammas));
+            whole.intensities.truncate((planes - 1) * gammas);
+            whole.errors.truncate((planes - 1) * gammas);
         }
         whole.check_angles()?;
         Ok(whole)

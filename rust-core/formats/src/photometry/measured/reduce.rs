@@ -21,8 +21,6 @@ pub struct Reduced {
     pub goniogram: Goniogram,
     /// Standard errors in cd of the goniogram's intensities, in their order.
     pub errors: Vec<f64>,
-    /// Intensities by two independent halves of the measurement, if it has them.
-    pub(super) halves: Option<[Vec<f64>; 2]>,
     /// The symmetries that were tested, the one that holds last.
     pub tests: Vec<SymmetryTest>,
     /// Luminous flux in lm that left the luminaire, counted without regard to angles.
@@ -58,15 +56,10 @@ impl Measurement {
             return Err(FormatError::whole(problem));
         };
         let (intensities, errors) = whole.means(&groups);
-        let halves = whole
-            .halves
-            .as_ref()
-            .map(|halves| halves.each_ref().map(|half| Self { intensities: half.clone(), halves: None, ..whole.clone() }.means(&groups).0));
         let goniogram = whole.goniogram(symmetry, groups.iter().map(|(c, _)| *c).collect(), intensities);
         let mut reduced = Reduced {
             goniogram,
             errors,
-            halves,
             tests,
             flux: self.flux,
             flux_error: self.flux_error,
@@ -200,8 +193,7 @@ impl Reduced {
         if self.source_flux <= 0.0 || flux <= self.source_flux {
             return;
         }
-        let lists = [&mut self.goniogram.intensities, &mut self.errors].into_iter().chain(self.halves.iter_mut().flatten());
-        lists.flatten().for_each(|value| *value *= self.source_flux / flux);
+        self.goniogram.intensities.iter_mut().chain(&mut self.errors).for_each(|value| *value *= self.source_flux / flux);
     }
 
     /// The bytes of an EULUMDAT file: cd per 1000 lm of the sources' flux.
