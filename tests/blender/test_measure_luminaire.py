@@ -278,7 +278,7 @@ def test_it_is_measured_beside_blender_until_escape(tmp_path: Path):
     names = ("_tell", "_arrived", "_publish", "_fail", "_options", "_luminaire", "_check", "execute")
     said, timers, texts = [], [], []
     fields = {name: vars(operator)[name] for name in names} | {"report": lambda self, kind, text: said.append(text)}
-    usual = {"kind": "SELECTION", "c_step": 0.2617994, "g_step": 0.0872665, "symmetry": "AUTO", "error": 0.0, "watts": 0.0}
+    usual = {"kind": "SELECTION", "c_step": 0.2617994, "g_step": 0.0872665, "symmetry": "AUTO", "error": 0.0, "seed": 0, "watts": 0.0}
     asked = {"_asked": True, "_worker": None, "use_lamp": False, "filepath": str(tmp_path / "disk.ldt")}
     running = type("Running", operator.__bases__[:1], {**fields, **usual, **asked})()
     context = SimpleNamespace(
