@@ -7,6 +7,7 @@ mod bsdf;
 mod memory;
 mod mutate;
 mod photometry;
+mod polygons;
 mod rays;
 mod weather;
 
@@ -40,7 +41,7 @@ pub struct Reader {
 
 /// All readers of the crate.
 fn readers() -> Vec<Reader> {
-    [photometry::readers(), bsdf::readers(), rays::readers(), weather::readers()].concat()
+    [photometry::readers(), bsdf::readers(), rays::readers(), weather::readers(), polygons::readers()].concat()
 }
 
 /// The input at work and since when, for the watchdog.
