@@ -12,11 +12,11 @@ ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = ROOT / "rust-core" / "python" / "python" / "gonio"
 WORDS = Path(__file__).with_name("python_words.py")
 # Where public names are defined; what stands later adds to classes of the same name.
-FILES = ("_gonio.pyi", "scene.py", "oidn.py")
+FILES = ("_gonio.pyi", "scene.py", "oidn.py", "placing.py", "texture.py")
 INTRODUCTION = """# Python
 
 What `import gonio` brings. Lengths are metres, luminances cd/m², illuminances lx, angles degrees unless it says otherwise. Signatures are those of the
-package's type stubs. `Buffer` is anything with the buffer protocol, such as arrays of numpy. Errors are subclasses of `gonio.Error`.
+package's type stubs. `Numbers` is anything with the buffer protocol, such as arrays of numpy. Errors are subclasses of `gonio.Error`.
 """
 
 

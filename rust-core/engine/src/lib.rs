@@ -13,6 +13,7 @@ pub mod light_paths;
 pub mod map;
 pub mod measure;
 pub mod output;
+pub mod rays;
 pub mod render;
 pub mod sample_bsdf;
 pub mod sky;

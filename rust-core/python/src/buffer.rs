@@ -115,7 +115,7 @@ fn check<T: pyo3::buffer::Element>(buffer: &PyBuffer<T>, name: &str, width: usiz
 }
 
 /// Refuses foreign byte orders.
-fn check_order<T: pyo3::buffer::Element>(buffer: &PyBuffer<T>, name: &str) -> PyResult<()> {
+pub(crate) fn check_order<T: pyo3::buffer::Element>(buffer: &PyBuffer<T>, name: &str) -> PyResult<()> {
     let format = buffer.format().to_bytes();
     let foreign = if cfg!(target_endian = "little") { [b'>', b'!'] } else { [b'<', b'<'] };
     if format.first().is_some_and(|order| foreign.contains(order)) {

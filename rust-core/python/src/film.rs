@@ -17,6 +17,7 @@ use gonio_simd::Execution;
 use pyo3::{
     exceptions::{PyKeyError, PyValueError},
     prelude::*,
+    types::PyBytes,
 };
 use std::{collections::HashMap, path::PathBuf};
 
@@ -130,6 +131,13 @@ impl Film {
         let look = ToneMap::by_name(tonemap).and_then(|operator| Look::new(operator, exposure, white, adapted, DisplaySpace::Srgb));
         let look = look.map_err(exception)?;
         Ok(Picture::plain(self.image.size(), py.detach(|| display(&self.image, &look, Execution::detect()))))
+    }
+    /// The tone-mapped colour pass as a PNG's bytes, by which notebooks show the film; None without one.
+    fn _repr_png_<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyBytes>>> {
+        if self.layer(Aov::Color.name()).is_err() {
+            return Ok(None);
+        }
+        self.picture(py, "photographic", 0.0, 6.0, None)?._repr_png_(py).map(Some)
     }
     /// Writes all passes; absolute ones as 32-bit floats whatever `half` says.
     #[pyo3(signature = (path, half = false))]

@@ -19,10 +19,13 @@ mod measured;
 #[cfg_attr(not(unix), path = "system_memory.rs")]
 mod memory;
 mod mesh;
+mod mesh_file;
 mod nodes;
 mod pass;
 mod photometry;
 mod picture;
+mod pixels;
+mod ray_caster;
 mod render;
 mod sample;
 mod scene;
@@ -69,6 +72,8 @@ mod _gonio {
     use crate::photometry::{goniogram_figures, read_goniogram, ugr_table};
     #[pymodule_export]
     use crate::picture::{Picture, false_colour};
+    #[pymodule_export]
+    use crate::ray_caster::{RayCaster, RayHits};
     #[pymodule_export]
     use crate::render::{Progress, Render, Tile, merge};
     #[pymodule_export]

@@ -7,7 +7,11 @@ use gonio_formats::bsdf::{
     gbsdf::{self, Encoding},
     read,
 };
-use pyo3::{exceptions::PyValueError, prelude::*, types::PyDict};
+use pyo3::{
+    exceptions::PyValueError,
+    prelude::*,
+    types::{PyBytes, PyDict, PyType},
+};
 use std::{
     io::Write,
     path::PathBuf,
@@ -73,6 +77,13 @@ impl MeasuredBsdf {
         let numbers = numbers.into_iter().map(|x| x as f32).collect();
         let table = Table::new(layout, numbers).map_err(|error| table::wrong(&error))?;
         Ok(Self::of(Measured::Tables(vec![table])))
+    }
+
+    /// What pickles and other processes make the same material of: `from_bytes` and the bytes of a file of its kind.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyType>,))> {
+        let bytes = py.detach(|| self.measured.to_bytes());
+        let make = py.import("operator")?.getattr("methodcaller")?.call1(("from_bytes", PyBytes::new(py, &bytes)))?;
+        Ok((make, (py.get_type::<Self>(),)))
     }
 
     /// Names of the channels: Y; R, G, B; X, Y, Z; or wavelengths.

@@ -48,6 +48,12 @@ impl Picture {
     fn tobytes<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
         PyBytes::new(py, &self.canvas.rgba)
     }
+    /// The picture as a PNG's bytes, by which notebooks show it.
+    pub(crate) fn _repr_png_<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let [width, height] = self.canvas.size.map(|side| side as u32);
+        let bytes = py.detach(|| output::encode_png(&self.canvas.rgba, width, height));
+        Ok(PyBytes::new(py, &bytes.map_err(|error| exception(gonio::Error::io("picture", error)))?))
+    }
     /// Writes it as PNG.
     fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         let [width, height] = self.canvas.size.map(|side| side as u32);

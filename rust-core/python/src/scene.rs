@@ -8,7 +8,7 @@ use crate::{
     error::{exception, setting},
     measured::MeasuredBsdf,
     mesh::MeshBuffers,
-    settings,
+    mesh_file, settings,
 };
 use gonio::{
     Diagnostic,
@@ -22,9 +22,12 @@ use pyo3::{
     exceptions::PyValueError,
     prelude::*,
     sync::PyOnceLock,
-    types::{PyDict, PyType},
+    types::{PyBytes, PyDict, PyType},
 };
-use std::{collections::HashMap, path::PathBuf};
+use std::{
+    collections::HashMap,
+    path::{Path, PathBuf},
+};
 
 /// What is to be rendered: meshes, instances, materials, lights, cameras, settings; lengths in metres, radiances in cd/m².
 #[pyclass(module = "gonio._gonio", subclass)]
@@ -314,8 +317,9 @@ impl Scene {
 
     /// Adds a texture described as in `to_dict`, or replaces texture `index`; gives its number.
     ///
-    /// In place of a source, `data` gives a name for messages and an encoded file's bytes, or those of UDIM tiles by number; `pixels` gives linear
-    /// RGBA floats (height, width, 4) with the rows from the top.
+    /// In place of a source, `data` gives a name for messages and an encoded file's bytes, or those of UDIM tiles by number; `pixels` gives numbers of
+    /// shape (height, width) or (height, width, 1 to 4), rows from the top: uint8 and uint16 are fractions of their largest, floats are as they stand.
+    /// The description's `colour_space` says what they mean: "raw" for linear ones.
     #[pyo3(signature = (description, index = None, *, data = None, pixels = None))]
     fn put_texture(
         &mut self,
@@ -326,6 +330,16 @@ impl Scene {
     ) -> PyResult<u32> {
         let texture = description::texture(description, data, pixels)?;
         description::put(&mut self.scene.textures, "texture", texture, index)
+    }
+
+    /// Adds the mesh of an OBJ or PLY file, or replaces mesh `index`; gives its number, and the names of its materials in the order of its slots.
+    ///
+    /// Polygons of any number of corners are cut into triangles. Normals are the file's, texture coordinates the primvar `st`. Lengths and axes are the
+    /// file's own: `put_instances` places them.
+    #[pyo3(signature = (path, index = None))]
+    fn put_mesh_file(&mut self, py: Python<'_>, path: PathBuf, index: Option<u32>) -> PyResult<(u32, Vec<String>)> {
+        let (mesh, materials) = mesh_file::read(py, &path)?;
+        Ok((description::put(&mut self.scene.meshes, "mesh", mesh, index)?, materials))
     }
 
     /// Adds a measured material, or replaces number `index`; gives its number, which closures of the model "Measured" name as `measured`.
@@ -428,6 +442,28 @@ impl Scene {
             false => scene::save_bundle(&self.scene, &path),
         };
         py.detach(save).map_err(exception)
+    }
+
+    /// What pickles, copies and other processes make the same scene of.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyAny>,))> {
+        let bytes = py.detach(|| scene::to_bundle(&self.scene)).map_err(exception)?;
+        let diagnostics: Vec<_> = self.diagnostics.iter().map(|d| (d.origin.to_string(), d.message.clone())).collect();
+        let arguments = ("_of_bundle", PyBytes::new(py, &bytes), self.cameras_have_shape, diagnostics);
+        let make = py.import("operator")?.getattr("methodcaller")?.call1(arguments)?;
+        Ok((make, (py.import("gonio.scene")?.getattr("Scene")?,)))
+    }
+
+    /// The scene of a bundle's bytes.
+    #[staticmethod]
+    fn _of_bundle<'py>(
+        py: Python<'py>,
+        bytes: &[u8],
+        cameras_have_shape: bool,
+        diagnostics: Vec<(String, String)>,
+    ) -> PyResult<Bound<'py, Self>> {
+        let scene = py.detach(|| scene::of_bundle(bytes, Path::new("pickle"))).map_err(exception)?;
+        let diagnostics = diagnostics.into_iter().map(|(origin, message)| Diagnostic::warning(&Origin::new(origin), message)).collect();
+        Self { scene, cameras_have_shape, diagnostics }.public(py)
     }
 
     /// Loads a bundle.

@@ -17,14 +17,30 @@ const MAGIC: &str = "gonio2\n";
 
 /// Saves a scene.
 pub fn save_bundle(scene: &Scene, path: &Path) -> Result<()> {
+    let (json, arrays) = parts(scene, path)?;
+    write_atomically(path, true, |file| write(&json, &arrays, file))
+}
+
+/// A bundle in memory.
+pub fn to_bundle(scene: &Scene) -> Result<Vec<u8>> {
+    let path = Path::new("bundle");
+    let (json, arrays) = parts(scene, path)?;
+    let mut bytes = Vec::with_capacity(json.len() + arrays.len() + 64);
+    write(&json, &arrays, &mut bytes).map_err(|error| Error::io(path, error))?;
+    Ok(bytes)
+}
+
+/// Description and arrays.
+fn parts(scene: &Scene, path: &Path) -> Result<(Vec<u8>, Vec<u8>)> {
     let (json, arrays) = blob::collect(|| serde_json::to_vec(scene));
-    let json = json.map_err(|error| Error::io(path, std::io::Error::other(error)))?;
-    write_atomically(path, true, |file| {
-        file.write_all(MAGIC.as_bytes())?;
-        writeln!(file, "{} {}", json.len(), arrays.len())?;
-        file.write_all(&json)?;
-        file.write_all(&arrays)
-    })
+    Ok((json.map_err(|error| Error::io(path, std::io::Error::other(error)))?, arrays))
+}
+
+fn write(json: &[u8], arrays: &[u8], file: &mut (impl Write + ?Sized)) -> std::io::Result<()> {
+    file.write_all(MAGIC.as_bytes())?;
+    writeln!(file, "{} {}", json.len(), arrays.len())?;
+    file.write_all(json)?;
+    file.write_all(arrays)
 }
 
 /// The scene with the bytes of its image files in memory; files that cannot be read stay names, as the picture is made without them.
@@ -46,7 +62,11 @@ pub fn with_images(scene: &Scene) -> Scene {
 
 /// Loads a scene.
 pub fn load_bundle(path: &Path) -> Result<Scene> {
-    let bytes = fs::read(path).map_err(|error| Error::io(path, error))?;
+    of_bundle(&fs::read(path).map_err(|error| Error::io(path, error))?, path)
+}
+
+/// The scene of a bundle's bytes; `path` stands in messages.
+pub fn of_bundle(bytes: &[u8], path: &Path) -> Result<Scene> {
     let broken = |problem: &str| Error::Format { path: path.to_owned(), line: None, problem: problem.to_owned() };
     let body = bytes.strip_prefix(MAGIC.as_bytes()).ok_or_else(|| broken("this is not a gonio bundle: its first line is not 'gonio2'"))?;
     let end = body.iter().position(|byte| *byte == b'\n').ok_or_else(|| broken("the line of lengths is missing"))?;

@@ -37,7 +37,7 @@ pub use antialiasing::Antialiasing;
 pub use aov::{AMBIENT_OCCLUSION, Aov, EYE_NORMAL, EYE_POSITION, LightPart, OTHER_LIGHTS, PRIMVARS, ScatteringKind, ShaderValue};
 pub use atomic::{write_atomically, write_through};
 pub use bundle::digest_scene;
-pub use bundle::{load_bundle, save_bundle, with_images};
+pub use bundle::{load_bundle, of_bundle, save_bundle, to_bundle, with_images};
 pub use camera::{Camera, CameraExposure, Projection};
 pub use cryptomatte::{MATTE_RANKS, MOST_MATTE_RANKS, Manifests, MatteKind, MatteName, matte_id, matte_key};
 pub use curves::{CurveBasis, CurveShape, CurveWrap, Curves};

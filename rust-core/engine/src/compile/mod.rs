@@ -87,6 +87,8 @@ pub struct CompiledScene {
     pub(crate) manifests: Arc<Manifests>,
     /// What casts caustics.
     pub(crate) casters: Casters,
+    /// Names of the primvars in the tables, whose columns follow that of the normals.
+    primvars: Vec<String>,
     /// What renders leave for the next.
     pub(crate) workspaces: Arc<Workspaces>,
     trees: Vec<trees::KeptTree>,
@@ -231,6 +233,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
         statistics,
         manifests,
         casters,
+        primvars: names,
         workspaces: previous.map(|p| p.workspaces.clone()).unwrap_or_default(),
         trees,
         smooth,
@@ -242,6 +245,13 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
     };
     light_paths_pay::decide(&mut compiled, complete.as_ref(), &lights.of_light, cancel)?;
     Ok(compiled)
+}
+
+impl CompiledScene {
+    /// The column of a primvar in the tables.
+    pub(crate) fn primvar_column(&self, name: &str) -> Option<usize> {
+        primvars::column(&self.primvars, name)
+    }
 }
 
 /// What placements are called in cryptomattes.

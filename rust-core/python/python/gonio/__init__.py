@@ -18,6 +18,8 @@ from ._gonio import (
     Pass,
     Picture,
     Progress,
+    RayCaster,
+    RayHits,
     Reading,
     Render,
     SampleReading,
@@ -46,7 +48,9 @@ from ._gonio import (
     ugr_table,
 )
 from .oidn import denoise
+from .placing import look_at
 from .scene import Scene
+from .texture import Texture
 
 __all__ = [
     "Array",
@@ -66,6 +70,8 @@ __all__ = [
     "Pass",
     "Picture",
     "Progress",
+    "RayCaster",
+    "RayHits",
     "Reading",
     "Render",
     "SampleReading",
@@ -73,6 +79,7 @@ __all__ = [
     "SceneError",
     "SettingError",
     "SurfaceMap",
+    "Texture",
     "Tile",
     "UnsupportedError",
     "__version__",
@@ -85,6 +92,7 @@ __all__ = [
     "goniometer",
     "illumination_map",
     "load_usd",
+    "look_at",
     "measure",
     "merge",
     "read_goniogram",

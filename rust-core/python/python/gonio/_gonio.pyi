@@ -5,8 +5,9 @@ from os import PathLike
 from types import TracebackType
 from typing import Any, Self, final
 
-from typing_extensions import Buffer, disjoint_base
+from typing_extensions import disjoint_base
 
+from .arrays import Numbers
 from .scene import Scene as PublicScene
 
 __all__ = [
@@ -33,6 +34,8 @@ __all__ = [
     "illumination_map",
     "Measurements",
     "Picture",
+    "RayCaster",
+    "RayHits",
     "Reading",
     "compute",
     "false_colour",
@@ -105,8 +108,8 @@ class MeasuredBsdf:
     def from_bytes(data: bytes, name: str = "bytes") -> MeasuredBsdf: ...
     @staticmethod
     def from_table(
-        axes: Mapping[str, Sequence[float]],
-        values: Buffer,
+        axes: Mapping[str, Sequence[float] | Numbers],
+        values: Numbers,
         *,
         side: str = "reflection-front",
         periods: Mapping[str, float] | None = None,
@@ -122,9 +125,9 @@ class MeasuredBsdf:
     def isotropic(self) -> bool: ...
     @property
     def sides(self) -> list[str]: ...
-    def eval(self, wi: Buffer, wo: Buffer, *, rgb: bool = False) -> Array: ...
-    def pdf(self, wi: Buffer, wo: Buffer) -> Array: ...
-    def sample(self, wo: Buffer, u: Buffer) -> tuple[Array, Array]: ...
+    def eval(self, wi: Numbers, wo: Numbers, *, rgb: bool = False) -> Array: ...
+    def pdf(self, wi: Numbers, wo: Numbers) -> Array: ...
+    def sample(self, wo: Numbers, u: Numbers) -> tuple[Array, Array]: ...
     def fit(self) -> dict[str, Any]: ...
     def write(self, path: str | PathLike[str], *, title: str = "", text: bool = False, theta: int | None = None, phi: int | None = None) -> None: ...
 
@@ -281,7 +284,7 @@ def goniometer(
     c0: Sequence[float] = ...,
     c_step: float = 15.0,
     g_step: float = 5.0,
-    gammas: Sequence[float] | Buffer | None = None,
+    gammas: Sequence[float] | Numbers | None = None,
     error: float = 0.01,
     rays: int = 200_000_000,
     time_limit: float | None = None,
@@ -406,11 +409,12 @@ class Picture:
     def size(self) -> tuple[int, int]: ...
     def legend(self, height: int) -> Picture: ...
     def tobytes(self) -> bytes: ...
+    def _repr_png_(self) -> bytes: ...
     def write(self, path: str | PathLike[str]) -> None: ...
 
-def compute(operation: str | Mapping[str, Any], inputs: Sequence[Buffer]) -> Array | None: ...
+def compute(operation: str | Mapping[str, Any], inputs: Sequence[Numbers]) -> Array | None: ...
 def false_colour(
-    values: Buffer,
+    values: Numbers,
     *,
     max: float | None = None,
     steps: int = 10,
@@ -475,7 +479,7 @@ class Glare:
     def sources(self) -> list[GlareSource]: ...
 
 def glare(
-    luminance: Buffer,
+    luminance: Numbers,
     *,
     projection: str = "equidistant",
     fov: float = 180.0,
@@ -495,7 +499,7 @@ class Film:
     def passes(self) -> list[str]: ...
     def __getitem__(self, name: str, /) -> Pass: ...
     def read(self, name: str, *, scale: float = 1.0, bottom_up: bool = False) -> Pass: ...
-    def with_pass(self, name: str, values: Buffer) -> Film: ...
+    def with_pass(self, name: str, values: Numbers) -> Film: ...
     def edge_aware(self) -> Film: ...
     def tone_mapped(
         self, tonemap: str = "photographic", exposure: float = 0.0, *, white: float = 6.0, adapted: float | None = None
@@ -503,6 +507,7 @@ class Film:
     def picture(
         self, tonemap: str = "photographic", exposure: float = 0.0, *, white: float = 6.0, adapted: float | None = None
     ) -> Picture: ...
+    def _repr_png_(self) -> bytes | None: ...
     def write_exr(self, path: str | PathLike[str], half: bool = False) -> None: ...
     def write_deep_exr(self, path: str | PathLike[str]) -> None: ...
     def matte_notes(self, prefix: str = "") -> dict[str, str]: ...
@@ -545,6 +550,35 @@ class Progress:
     def rays(self) -> int: ...
 
 @final
+class RayCaster:
+    def __new__(cls, scene: Scene, *, uv: str = "st") -> Self: ...
+    def first_hits(self, origins: Numbers, directions: Numbers, *, max_distance: float | None = None) -> RayHits: ...
+
+@final
+class RayHits:
+    @property
+    def hit(self) -> Array: ...
+    @property
+    def distance(self) -> Array: ...
+    @property
+    def position(self) -> Array: ...
+    @property
+    def normal(self) -> Array: ...
+    @property
+    def geometric_normal(self) -> Array: ...
+    @property
+    def uv(self) -> Array: ...
+    @property
+    def instance(self) -> Array: ...
+    @property
+    def placement(self) -> Array: ...
+    @property
+    def material(self) -> Array: ...
+    @property
+    def triangle(self) -> Array: ...
+    def __len__(self) -> int: ...
+
+@final
 class Render:
     def __new__(
         cls,
@@ -559,9 +593,9 @@ class Render:
         scene: Scene,
         *,
         instance: int,
-        triangles: Buffer,
-        places: Buffer,
-        steps: Buffer | None = None,
+        triangles: Numbers,
+        places: Numbers,
+        steps: Numbers | None = None,
         placement: int = 0,
         view: str = "above",
         previous: Render | None = None,
@@ -589,17 +623,17 @@ class Scene:
     def __new__(cls) -> Self: ...
     def put_mesh(
         self,
-        points: Buffer,
-        triangles: Buffer,
+        points: Numbers,
+        triangles: Numbers,
         *,
-        corners: Buffer | None = None,
-        faces: Buffer | None = None,
-        normals: Buffer | None = None,
-        uvs: Buffer | None = None,
-        primvars: Mapping[str, Buffer] | None = None,
-        slots: Buffer | None = None,
-        motion: Buffer | None = None,
-        motion_normals: Buffer | None = None,
+        corners: Numbers | None = None,
+        faces: Numbers | None = None,
+        normals: Numbers | None = None,
+        uvs: Numbers | None = None,
+        primvars: Mapping[str, Numbers] | None = None,
+        slots: Numbers | None = None,
+        motion: Numbers | None = None,
+        motion_normals: Numbers | None = None,
         name: str = "mesh",
         index: int | None = None,
     ) -> int: ...
@@ -608,28 +642,28 @@ class Scene:
     ) -> None: ...
     def put_curves(
         self,
-        points: Buffer,
-        counts: Buffer,
-        widths: float | Buffer | tuple[Buffer, str],
+        points: Numbers,
+        counts: Numbers,
+        widths: float | Numbers | tuple[Numbers, str],
         *,
         type: str = "linear",
         basis: str = "bezier",
         wrap: str = "nonperiodic",
         shape: str = "round",
-        motion: Buffer | None = None,
-        primvars: Mapping[str, Buffer | tuple[Buffer, str]] | None = None,
+        motion: Numbers | None = None,
+        primvars: Mapping[str, Numbers | tuple[Numbers, str]] | None = None,
         name: str = "curves",
         index: int | None = None,
     ) -> int: ...
     def put_points(
         self,
-        points: Buffer,
-        widths: float | Buffer | tuple[Buffer, str],
+        points: Numbers,
+        widths: float | Numbers | tuple[Numbers, str],
         *,
-        normals: Buffer | None = None,
+        normals: Numbers | None = None,
         shape: str = "sphere",
-        motion: Buffer | None = None,
-        primvars: Mapping[str, Buffer | tuple[Buffer, str]] | None = None,
+        motion: Numbers | None = None,
+        primvars: Mapping[str, Numbers | tuple[Numbers, str]] | None = None,
         name: str = "points",
         index: int | None = None,
     ) -> int: ...
@@ -637,14 +671,14 @@ class Scene:
         self,
         mesh: int | None,
         materials: Sequence[int],
-        transforms: Buffer,
+        transforms: Numbers,
         *,
         curves: int | None = None,
         points: int | None = None,
-        motion: Buffer | None = None,
+        motion: Numbers | None = None,
         name: str = "instances",
         visibility: Mapping[str, bool] | None = None,
-        primvars: Mapping[str, Buffer] | None = None,
+        primvars: Mapping[str, Numbers] | None = None,
         pass_index: int = 0,
         light_group: str = "",
         linking: Mapping[str, Any] | None = None,
@@ -671,8 +705,9 @@ class Scene:
         index: int | None = None,
         *,
         data: tuple[str, bytes | Mapping[int, bytes]] | None = None,
-        pixels: Buffer | None = None,
+        pixels: Numbers | None = None,
     ) -> int: ...
+    def put_mesh_file(self, path: str | PathLike[str], index: int | None = None) -> tuple[int, list[str]]: ...
     def put_measured(self, measured: MeasuredBsdf, *, name: str = "measured", index: int | None = None) -> int: ...
     def put_meter(self, description: Mapping[str, Any], index: int | None = None) -> int: ...
     def put_grid(self, description: Mapping[str, Any], index: int | None = None) -> int: ...
@@ -736,6 +771,8 @@ class Scene:
     def diagnostics(self) -> list[tuple[str, str]]: ...
     def to_dict(self) -> dict[str, Any]: ...
     def save(self, path: str | PathLike[str], *, images: bool = False) -> None: ...
+    @staticmethod
+    def _of_bundle(bytes: bytes, cameras_have_shape: bool, diagnostics: Sequence[tuple[str, str]]) -> PublicScene: ...
     @staticmethod
     def load(path: str | PathLike[str]) -> PublicScene: ...
 

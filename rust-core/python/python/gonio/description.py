@@ -6,9 +6,13 @@ import math
 import sys
 from array import array
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ._gonio import _setting_error, surface_parameters
+from .texture import Texture
+
+if TYPE_CHECKING:
+    from .arrays import Matrix
 
 # Names of what meters measure, and their names in descriptions.
 MEASURANDS = {
@@ -29,36 +33,57 @@ def numbers(name: str, values: Sequence[float], count: int) -> list[float]:
     return found
 
 
-def columns(matrix: Sequence[Sequence[float]] | None) -> dict[str, Any]:
+def columns(matrix: Matrix | None) -> dict[str, Any]:
     """A 4×4 matrix for column vectors (translation in the last column), or None for the identity, as descriptions have it."""
     if matrix is None:
         matrix = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
-    rows = [array("d", [*row]) for row in matrix]
+    rows = [array("d", [float(value) for value in row]) for row in matrix]
     if len(rows) != 4 or any(len(row) != 4 for row in rows):
         raise ValueError("transform: expected a 4 by 4 matrix")
     return {"columns": [[row[column] for row in rows[:3]] for column in range(4)]}
 
 
 def material(name: str, parameters: Mapping[str, Any]) -> dict[str, Any]:
-    """A material of one OpenPBR surface; its parameters are numbers or triples."""
+    """A material of one OpenPBR surface; its parameters are numbers, triples or textures, `normal` a texture of tangent-space normals."""
     given = dict(parameters)
-    thin_walled = given.pop("thin_walled", False)
-    constants = [(key, {"Constant": _constant(key, value)}) for key, value in given.items()]
-    return {"origin": name, "closures": [{"parameters": constants, "thin_walled": thin_walled}]}
+    closure: dict[str, Any] = {"thin_walled": given.pop("thin_walled", False)}
+    nodes: list[dict[str, Any]] = []
+    if (normal := given.pop("normal", None)) is not None:
+        if not isinstance(normal, Texture):
+            raise _setting_error("normal", "expected a texture of tangent-space normals")
+        nodes += normal.nodes(0, is_normal=True)
+        closure["normal"] = len(nodes) - 1
+    closure["parameters"] = [(key, _input(key, value, nodes)) for key, value in given.items()]
+    return {"origin": name, "closures": [closure], "graph": {"nodes": nodes}}
+
+
+def _input(name: str, value: Any, nodes: list[dict[str, Any]]) -> dict[str, Any]:
+    """A parameter's value as an input of a graph, which gets the nodes of textures."""
+    if not isinstance(value, Texture):
+        return {"Constant": _constant(name, value)}
+    channel = "Rgb" if _width(name) == 3 else value.component
+    nodes += value.nodes(len(nodes))
+    return {"Node": [len(nodes) - 1, channel]}
+
+
+def _width(name: str) -> int:
+    """Numbers that a parameter takes."""
+    width = surface_parameters.get(name)
+    if width is None:
+        raise _setting_error(name, "the surface has no parameter of this name")
+    return width
 
 
 def _constant(name: str, value: Any) -> list[float]:
     """A parameter's value in four components."""
-    width = surface_parameters.get(name)
-    if width is None:
-        raise _setting_error(name, "the surface has no parameter of this name")
+    width = _width(name)
     found = array("d", [*value] if hasattr(value, "__len__") else [value] * width)
     if len(found) != width:
         raise _setting_error(name, f"{len(found)} numbers were found, expected {width}")
     return [*found, 1.0, 1.0, 1.0][:4]
 
 
-def camera(name: str, transform: Sequence[Sequence[float]] | None, fov: float, resolution: tuple[int, int]) -> dict[str, Any]:
+def camera(name: str, transform: Matrix | None, fov: float, resolution: tuple[int, int]) -> dict[str, Any]:
     """A pinhole with a vertical field of view in degrees, for a picture of this width and height."""
     width, height = resolution
     opening = 2.0 * math.tan(math.radians(fov) * 0.5)

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 from array import array
 from collections.abc import Mapping, Sequence
-from typing import Any, TypedDict
+from typing import TYPE_CHECKING, Any, TypedDict
 
 from ._gonio import _setting_error, blackbody_rgb
 from .description import columns, numbers
+from .texture import Texture
+
+if TYPE_CHECKING:
+    from .arrays import Matrix
 
 # Keyword arguments that tell the strength in place of the radiance, and their names in descriptions.
 QUANTITIES = {"lumens": "Lumens", "lamp_lumens": "LampLumens", "candela": "Candela", "lux": "Lux", "nits": "Nits", "watts": "Watts"}
@@ -34,13 +38,15 @@ class Photometry(TypedDict, total=False):
     # Full angle in degrees, and blend.
     spot: tuple[float, float] | None
     group: str
+    # Multiplies the radiance over a rectangle or a dome.
+    texture: Texture | None
 
 
 def light(
     name: str,
     shape: str,
     radiance: Sequence[float],
-    transform: Sequence[Sequence[float]] | None,
+    transform: Matrix | None,
     sizes: Mapping[str, float],
     visible: bool,
     photometry: Photometry,
@@ -51,6 +57,8 @@ def light(
     emitter = _shape(shape, sizes, given.get("opening") or (goniogram or {}).get("opening") or POINT)
     if quantity is None and goniogram is not None and shape in {"point", "luminaire"}:
         quantity = "Measured"
+    if "texture" in given:
+        given["texture"] = given["texture"].number
     if "spot" in given:
         given["spot"] = dict(zip(("angle_deg", "blend"), numbers("spot", given["spot"], 2), strict=True))
     return {
@@ -62,7 +70,7 @@ def light(
         "transform": columns(transform),
         "visibility": {"camera": visible},
         "casts_shadow": True,
-        **{key: given[key] for key in ("dimming", "spot", "group", "goniogram") if key in given},
+        **{key: given[key] for key in ("dimming", "spot", "group", "goniogram", "texture") if key in given},
     }
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from array import array
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Unpack
@@ -9,12 +10,10 @@ from typing import TYPE_CHECKING, Unpack
 from . import _gonio
 from .description import camera, columns, material, measurand, numbers
 from .light import Photometry, light
+from .texture import Texture, described
 
 if TYPE_CHECKING:
-    from typing_extensions import Buffer
-
-# Rows of a 4×4 matrix for column vectors: the translation is in the last column.
-Matrix = Sequence[Sequence[float]]
+    from .arrays import Matrix, Numbers
 
 
 class Scene(_gonio.Scene):
@@ -26,17 +25,17 @@ class Scene(_gonio.Scene):
 
     def add_mesh(
         self,
-        points: Buffer,
-        triangles: Buffer,
+        points: Numbers,
+        triangles: Numbers,
         *,
-        corners: Buffer | None = None,
-        faces: Buffer | None = None,
-        normals: Buffer | None = None,
-        uvs: Buffer | None = None,
-        primvars: Mapping[str, Buffer] | None = None,
-        slots: Buffer | None = None,
-        motion: Buffer | None = None,
-        motion_normals: Buffer | None = None,
+        corners: Numbers | None = None,
+        faces: Numbers | None = None,
+        normals: Numbers | None = None,
+        uvs: Numbers | None = None,
+        primvars: Mapping[str, Numbers] | None = None,
+        slots: Numbers | None = None,
+        motion: Numbers | None = None,
+        motion_normals: Numbers | None = None,
         name: str = "mesh",
     ) -> int:
         """Adds a mesh; gives its number. The arrays are those of `put_mesh`."""
@@ -54,22 +53,53 @@ class Scene(_gonio.Scene):
             name=name,
         )
 
-    def add_material(self, name: str = "material", **parameters: float | bool | Sequence[float]) -> int:
-        """Adds a material: keyword arguments are surface parameters by their OpenPBR names, numbers or triples; gives its number."""
+    def add_mesh_file(self, path: str | os.PathLike[str]) -> tuple[int, list[str]]:
+        """Adds the mesh of an OBJ or PLY file; gives its number and the names of its materials, one a slot: `add_instance` takes as many."""
+        return self.put_mesh_file(path)
+
+    def add_texture(
+        self,
+        image: str | os.PathLike[str] | Numbers,
+        *,
+        colour_space: str | None = None,
+        uv: str = "st",
+        wrap: str = "repeat",
+        tiles: Sequence[float] = (1.0, 1.0),
+        name: str | None = None,
+    ) -> Texture:
+        """Adds an image: a file's path, or an array (height, width) or (height, width, 1 to 4), rows from the top, of uint8 or uint16, which are
+        fractions of their largest, or floats. `colour_space` says what its numbers mean: "sRGB", "lin_rec709", "ACEScg", "raw" for what is no
+        colour; files may have "auto", arrays are to name it. `uv` is the primvar that it lies along, `wrap` what is beyond it (repeat, clamp, mirror,
+        black), `tiles` how often it is repeated along u and v.
+        """
+        along = array("d", numbers("tiles", tiles, 2))
+        if isinstance(image, (str, os.PathLike)):
+            path = os.fspath(image)
+            description = {**described(name or path, colour_space or "auto"), "source": {"File": path}}
+            number = self.put_texture(description)
+        elif colour_space is None:
+            raise ValueError('add_texture: an array says nothing of its colours: expected colour_space="sRGB", "lin_rec709", "raw" or another')
+        else:
+            number = self.put_texture(described(name or "texture", colour_space), pixels=image)
+        return Texture(number, uv, wrap, (along[0], along[1]))
+
+    def add_material(self, name: str = "material", **parameters: float | bool | Sequence[float] | Texture) -> int:
+        """Adds a material: keyword arguments are surface parameters by their OpenPBR names, numbers, triples or textures, and `normal`, a texture
+        of tangent-space normals; gives its number."""
         return self.put_material(material(name, parameters))
 
     def add_curves(
         self,
-        points: Buffer,
-        counts: Buffer,
-        widths: float | Buffer | tuple[Buffer, str],
+        points: Numbers,
+        counts: Numbers,
+        widths: float | Numbers | tuple[Numbers, str],
         *,
         type: str = "linear",
         basis: str = "bezier",
         wrap: str = "nonperiodic",
         shape: str = "round",
-        motion: Buffer | None = None,
-        primvars: Mapping[str, Buffer | tuple[Buffer, str]] | None = None,
+        motion: Numbers | None = None,
+        primvars: Mapping[str, Numbers | tuple[Numbers, str]] | None = None,
         name: str = "curves",
     ) -> int:
         """Adds curves; gives their number. The arguments are those of `put_curves`."""
@@ -79,13 +109,13 @@ class Scene(_gonio.Scene):
 
     def add_points(
         self,
-        points: Buffer,
-        widths: float | Buffer | tuple[Buffer, str],
+        points: Numbers,
+        widths: float | Numbers | tuple[Numbers, str],
         *,
-        normals: Buffer | None = None,
+        normals: Numbers | None = None,
         shape: str = "sphere",
-        motion: Buffer | None = None,
-        primvars: Mapping[str, Buffer | tuple[Buffer, str]] | None = None,
+        motion: Numbers | None = None,
+        primvars: Mapping[str, Numbers | tuple[Numbers, str]] | None = None,
         name: str = "points",
     ) -> int:
         """Adds points; gives their number. The arguments are those of `put_points`."""

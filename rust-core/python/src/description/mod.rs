@@ -5,7 +5,7 @@
 mod reader;
 mod writer;
 
-use crate::{buffer::floats, error::setting};
+use crate::error::setting;
 use gonio::scene::{Texture, TextureSource, Tile, Visibility};
 use pyo3::{prelude::*, pybacked::PyBackedBytes, types::PyDict};
 use reader::Reader;
@@ -88,10 +88,8 @@ pub(crate) fn texture(
             TextureSource::Tiles { name, tiles: tiles.into_iter().map(tile).collect() }
         }
         (None, Some(pixels)) => {
-            let shape: [usize; 3] = pixels.getattr("shape")?.extract()?;
-            let flat = pixels.call_method1("reshape", (-1,))?;
-            let rgba: Arc<[f32]> = floats(&flat, "pixels", 4)?.values.into();
-            TextureSource::Pixels { width: shape[1] as u32, height: shape[0] as u32, rgba }
+            let space = description.get_item("colour_space")?.map(|space| space.extract::<String>()).transpose()?;
+            crate::pixels::source(pixels, &space.unwrap_or_default())?
         }
         (None, None) => return read(description, "texture"),
     };
