@@ -169,7 +169,7 @@ def test_denoisers_leave_light_alone_that_the_camera_sees_sharply():
 
 def test_denoising_without_the_extra_says_how_to_get_it(monkeypatch):
     monkeypatch.setitem(sys.modules, "pyoidn", None)
-    with pytest.raises(gonio.UnsupportedError, match=r"pip install 'gonio\[denoise\]'"):
+    with pytest.raises(gonio.UnsupportedError, match=r"pip install pyoidn"):
         gonio.denoise(finished(floor_scene()))
 
 

@@ -43,7 +43,7 @@ def test_a_cluster_without_the_extra_is_one_line(run, room, tmp_path):
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(tmp_path), os.environ.get("PYTHONPATH", "")])}
     done = run(*line(room, "-o", tmp_path / "a.exr", "--dask", "tcp://127.0.0.1:9"), env=environment)
     assert done.returncode == 1 and len(done.stderr.splitlines()) == 1, done.stderr
-    assert done.stderr.startswith("gonio: error: dask: ") and "pip install 'gonio[farm]'" in done.stderr
+    assert done.stderr.startswith("gonio: error: dask: ") and "pip install distributed" in done.stderr
     assert not (tmp_path / "a.exr").exists()
 
 

@@ -6,7 +6,7 @@ use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyModule, PyTuple};
 
 /// What to do when `pxr` cannot be imported.
-pub const INSTALL_HINT: &str = "reading USD needs the package usd-core: pip install 'gonio[usd]'";
+pub const INSTALL_HINT: &str = "reading USD needs the package usd-core: pip install usd-core";
 
 /// A module of `pxr`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

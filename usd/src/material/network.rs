@@ -173,7 +173,7 @@ impl<'h> Network<'h> {
         if definition.is_none() && shader.id.starts_with("ND_") && self.host.lacks_library() {
             let message = format!(
                 "'{}' is not among the nodes of MaterialX that are built in; most others come with its standard library: pip install \
-                 'gonio[materialx]'",
+                 materialx",
                 shader.id
             );
             self.host.once("extra", "materialx", &shader.path, message);

@@ -6,7 +6,7 @@ use clap::Args;
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Many machines")]
 pub(crate) struct FarmArguments {
-    /// Spread the render over the workers of a Dask cluster (pip install 'gonio[farm]'): its scheduler's address, as in tcp://farm:8786, or the path of its scheduler file.
+    /// Spread the render over the workers of a Dask cluster (pip install distributed): its scheduler's address, as in tcp://farm:8786, or the path of its scheduler file.
     #[arg(long, value_name = "ADDRESS", conflicts_with_all = ["list_cameras", "checkpoint", "samples", "part", "time_limit", "threads"])]
     pub(crate) dask: Option<String>,
     /// Parts that each frame is cut into; without it as many as give every worker four, over all frames.

@@ -89,7 +89,7 @@ pub(super) enum Command {
     Render(Box<RenderOptions>),
     /// Show a USD stage in a window: a picture that becomes clearer, seen from where you like, with cd/m² and lux under the cursor.
     ///
-    /// Reads the stage anew when one of its files is saved. Needs Qt: pip install 'gonio[view]'.
+    /// Reads the stage anew when one of its files is saved. Needs Qt: pip install PySide6-Essentials.
     #[command(after_long_help = VIEW_EXAMPLES)]
     View(Box<ViewOptions>),
     /// Join the parts of a render's samples that 'gonio render --samples A:B --checkpoint PART' wrote, to the bits of one whole render.

@@ -30,7 +30,7 @@ pub(crate) struct OutputArguments {
     /// Half floats for the passes of EXR files that are not absolute.
     #[arg(long)]
     pub(crate) half: bool,
-    /// Take the noise out of the colour with Intel's Open Image Denoise (pip install 'gonio[denoise]'); other passes stay as they were rendered.
+    /// Take the noise out of the colour with Intel's Open Image Denoise (pip install pyoidn); other passes stay as they were rendered.
     #[arg(long)]
     pub(crate) denoise: bool,
 }

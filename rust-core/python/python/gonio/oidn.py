@@ -22,7 +22,7 @@ def require() -> Any:
         with pyoidn.Device():
             return pyoidn
     except (ImportError, OSError) as error:
-        message = f"denoising needs Intel's Open Image Denoise: pip install 'gonio[denoise]' ({error})"
+        message = f"denoising needs Intel's Open Image Denoise: pip install pyoidn ({error})"
         raise UnsupportedError(message) from error
 
 

@@ -17,7 +17,7 @@ def require() -> Any:
     try:
         return importlib.import_module("distributed")
     except ImportError as error:
-        raise UnsupportedError(f"rendering on a Dask cluster needs Dask: pip install 'gonio[farm]' ({error})") from error
+        raise UnsupportedError(f"rendering on a Dask cluster needs Dask: pip install distributed ({error})") from error
 
 
 def connect(address: str) -> Any:

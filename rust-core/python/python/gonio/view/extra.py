@@ -14,7 +14,7 @@ def require(*, headless: bool) -> None:
     try:
         importlib.import_module("PySide6.QtWidgets")
     except ImportError as error:
-        raise UnsupportedError(f"the window needs Qt: pip install 'gonio[view]' ({error})") from error
+        raise UnsupportedError(f"the window needs Qt: pip install PySide6-Essentials ({error})") from error
     if _has_display():
         return
     if not headless:
