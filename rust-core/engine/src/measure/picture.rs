@@ -20,15 +20,16 @@ pub fn value_picture(grid: &GridReading, style: &FalseColour) -> Canvas {
     let pixels: Vec<f32> =
         (0..size[0] * size[1]).map(|i| interpolated(&values, grid.size, [i % size[0], size[1] - 1 - i / size[0]], cell)).collect();
     let mut canvas = style.draw(&pixels, size);
-    let dot = (cell / 32).max(1);
+    // A cell holds five digits; those of less than nine pixels cannot be read.
+    let (digits, margin) = ((cell / 5).clamp(9, 24), (cell / 32).max(1));
     for (index, value) in values.iter().enumerate().filter(|(_, value)| value.is_finite()) {
         let text = short_number(f64::from(*value));
-        let [width, height] = Canvas::text_size(&text, dot);
-        if width + 2 * dot < cell {
+        let [width, height] = Canvas::text_size(&text, digits);
+        if width.max(height) + 2 * margin < cell {
             let middle = [index % columns * cell + cell / 2, (rows - 1 - index / columns) * cell + cell / 2];
             let corner = [middle[0] - width / 2, middle[1] - height / 2];
-            canvas.shade(corner.map(|at| at - dot), [width + 2 * dot, height + 2 * dot], PAPER);
-            canvas.write(&text, corner, dot, INK);
+            canvas.shade(corner.map(|at| at - margin), [width + 2 * margin, height + 2 * margin], PAPER);
+            canvas.write(&text, corner, digits, INK);
         }
     }
     canvas

@@ -40,24 +40,29 @@ impl Canvas {
     }
 
     /// Lays a colour over a rectangle by its alpha.
-    pub fn shade(&mut self, [left, top]: [usize; 2], [width, height]: [usize; 2], [r, g, b, alpha]: [u8; 4]) {
-        let mixed = |below: u8, above: u8| ((u32::from(below) * u32::from(255 - alpha) + u32::from(above) * u32::from(alpha)) / 255) as u8;
+    pub fn shade(&mut self, [left, top]: [usize; 2], [width, height]: [usize; 2], colour: [u8; 4]) {
         for y in top..(top + height).min(self.size[1]) {
-            for x in left..(left + width).min(self.size[0]) {
-                let at = 4 * (y * self.size[0] + x);
-                let pixel = &mut self.rgba[at..at + 4];
-                pixel.copy_from_slice(&[mixed(pixel[0], r), mixed(pixel[1], g), mixed(pixel[2], b), pixel[3]]);
-            }
+            (left..(left + width).min(self.size[0])).for_each(|x| self.mix([x, y], colour, u32::from(colour[3])));
         }
     }
 
-    /// Writes a text, a dot of the font being so many pixels wide.
-    pub fn write(&mut self, text: &str, [left, top]: [usize; 2], dot: usize, colour: [u8; 4]) {
-        font::draw(text, |x, y| self.fill([left + x * dot, top + y * dot], [dot; 2], colour));
+    /// Lays a colour over a pixel by a share of 255; those outside do not matter.
+    fn mix(&mut self, [x, y]: [usize; 2], [r, g, b, _]: [u8; 4], share: u32) {
+        if x < self.size[0] && y < self.size[1] {
+            let mixed = |below: u8, above: u8| ((u32::from(below) * (255 - share) + u32::from(above) * share) / 255) as u8;
+            let at = 4 * (y * self.size[0] + x);
+            let pixel = &mut self.rgba[at..at + 4];
+            pixel.copy_from_slice(&[mixed(pixel[0], r), mixed(pixel[1], g), mixed(pixel[2], b), pixel[3]]);
+        }
+    }
+
+    /// Writes a text whose digits are so many pixels high.
+    pub fn write(&mut self, text: &str, [left, top]: [usize; 2], height: usize, colour: [u8; 4]) {
+        font::draw(text, height as f32, |x, y, share| self.mix([left + x, top + y], colour, (share * 255.0) as u32));
     }
 
     /// Pixels across a text and down it.
-    pub fn text_size(text: &str, dot: usize) -> [usize; 2] {
-        [font::width(text) * dot, font::SIZE[1] * dot]
+    pub fn text_size(text: &str, height: usize) -> [usize; 2] {
+        [(font::width(text) * height as f32).ceil() as usize, height]
     }
 }

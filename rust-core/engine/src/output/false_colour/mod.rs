@@ -27,6 +27,8 @@ pub struct FalseColour {
 /// The strip beside the picture, and what is written there.
 const PAPER: [u8; 4] = [24, 24, 24, 255];
 const INK: [u8; 4] = [235, 235, 235, 255];
+/// Pixels of a digit's height, at least and at most.
+const TEXT: [usize; 2] = [9, 64];
 /// Isolines over false colour; over pictures they take their steps' colours.
 const LINE: [u8; 4] = [0, 0, 0, 255];
 
@@ -86,13 +88,13 @@ impl FalseColour {
 
     /// The legend for a picture of a height, at least as tall as its text wants.
     pub fn legend(&self, height: usize) -> Canvas {
-        let dot = (height / 240).clamp(1, 6);
         let labels: Vec<String> = self.scale.edges().iter().map(|edge| short_number(f64::from(*edge))).collect();
-        let widest = labels.iter().chain([&self.unit]).map(|label| Canvas::text_size(label, dot)[0]).max().unwrap_or(0);
-        let (margin, swatch, text) = (4 * dot, 12 * dot, Canvas::text_size("0", dot)[1]);
-        let line = text + 3 * dot;
+        // A twenty-sixth of the picture, less where there are many steps.
+        let text = (height / 26).min(height * 2 / (3 * (labels.len() + 2))).clamp(TEXT[0], TEXT[1]);
+        let widest = labels.iter().chain([&self.unit]).map(|label| Canvas::text_size(label, text)[0]).max().unwrap_or(0);
+        let (margin, swatch, line) = (text * 2 / 3, text * 3 / 2, text * 3 / 2);
         let mut canvas = Canvas::new([3 * margin + swatch + widest, height.max((labels.len() + 2) * line)], PAPER);
-        canvas.write(&self.unit, [margin, margin], dot, INK);
+        canvas.write(&self.unit, [margin, margin], text, INK);
         let (top, steps) = (margin + 2 * line, self.scale.steps());
         let room = canvas.size[1].saturating_sub(top + line);
         let edge = |step: usize| top + room * (steps - step) / steps;
@@ -101,7 +103,7 @@ impl FalseColour {
             canvas.fill([margin, edge(step + 1)], [swatch, edge(step) - edge(step + 1)], [r, g, b, 255]);
         }
         for (step, label) in labels.iter().enumerate() {
-            canvas.write(label, [2 * margin + swatch, edge(step).saturating_sub(text / 2)], dot, INK);
+            canvas.write(label, [2 * margin + swatch, edge(step).saturating_sub(text / 2)], text, INK);
         }
         canvas
     }
