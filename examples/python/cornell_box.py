@@ -4,6 +4,7 @@ import sys
 
 import gonio
 import numpy
+from shapes import finished
 
 SIZE = 0.55
 WHITE, RED, GREEN = (0.73, 0.73, 0.73), (0.61, 0.06, 0.06), (0.12, 0.45, 0.15)
@@ -32,7 +33,7 @@ def add_block(scene: gonio.Scene, size: tuple[float, float, float], transform: l
 def cornell_box() -> gonio.Scene:
     """The box, its two blocks, its lamp of 1500 cd/m² and its camera."""
     scene = gonio.Scene()
-    scene.set(width=360, height=360, samples=256)
+    scene.set(width=600, height=600, samples=128)
     white, red, green = (scene.add_material(base_color=colour, specular_weight=0.0) for colour in (WHITE, RED, GREEN))
     h, s = SIZE / 2, SIZE
     add_quad(scene, [(-h, 0, h), (h, 0, h), (h, 0, -h), (-h, 0, -h)], white)
@@ -43,7 +44,7 @@ def cornell_box() -> gonio.Scene:
     add_block(scene, (0.165, 0.165, 0.165), place(0.09, 0, 0.08, -17), white)
     add_block(scene, (0.165, 0.33, 0.165), place(-0.09, 0, -0.09, 20), white)
     # Flat lights shine along their -z, here turned downwards.
-    down = [[1, 0, 0, 0], [0, 0, 1, SIZE - 0.001], [0, -1, 0, 0], [0, 0, 0, 1]]
+    down = gonio.look_at((0, SIZE - 0.001, 0), (0, 0, 0), (0, 0, -1))
     scene.add_light("rectangle", (1500.0, 1230.0, 840.0), width=0.13, height=0.105, transform=down)
     scene.add_camera(place(0, SIZE / 2, 1.045), fov=39.0)
     return scene
@@ -51,10 +52,7 @@ def cornell_box() -> gonio.Scene:
 
 def main() -> None:
     """Renders the box into the file that the command line names."""
-    scene = cornell_box()
-    with gonio.Render(scene) as render:
-        render.wait()
-        render.film().write_picture(sys.argv[1] if len(sys.argv) > 1 else "cornell_box.png", exposure=0.5)
+    finished(cornell_box(), sys.argv[1] if len(sys.argv) > 1 else "cornell_box.png", exposure=0.5)
 
 
 if __name__ == "__main__":

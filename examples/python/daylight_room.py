@@ -4,6 +4,7 @@ import sys
 
 import gonio
 import numpy
+import shapes
 
 WIDTH, DEPTH, HEIGHT = 4.0, 6.0, 2.8
 SILL, HEAD, WINDOW_WIDTH = 0.85, 2.45, 2.8
@@ -36,6 +37,41 @@ def room() -> gonio.Scene:
     return scene
 
 
+def furnish(scene: gonio.Scene) -> None:
+    """A window frame with glazing bars, a board floor, and a table with two stools and a jug: what the sun draws with."""
+    d, x = DEPTH, WINDOW_WIDTH / 2
+    wood = scene.add_material(base_color=(0.62, 0.6, 0.56), specular_roughness=0.4)
+    for left in (-x, -x / 3, x / 3, x - 0.06):
+        shapes.put_box(scene, (left, SILL, d + 0.12), (left + 0.06, HEAD, d + 0.18), wood)
+    for low in (SILL, SILL + 1.08, HEAD - 0.06):
+        shapes.put_box(scene, (-x, low, d + 0.13), (x, low + 0.05, d + 0.17), wood)
+    shapes.put_box(scene, (-x - 0.08, SILL - 0.04, d - 0.16), (x + 0.08, SILL, d), wood)
+    grain = shapes.noise(64, 512, 5, 61)
+    boards = numpy.stack([0.3 + 0.16 * grain, 0.19 + 0.1 * grain, 0.11 + 0.06 * grain], axis=-1).repeat(2, axis=0)
+    boards[::32] *= 0.35
+    oak = scene.add_material(
+        base_color=scene.add_texture(boards.astype("f4"), colour_space="lin_rec709", tiles=(2, 7)), specular_roughness=0.33
+    )
+    w = WIDTH / 2
+    shapes.quad(scene, [(-w, 0.002, 0), (-w, 0.002, d), (w, 0.002, d), (w, 0.002, 0)], oak)
+    walnut = scene.add_material(base_color=(0.16, 0.085, 0.045), specular_roughness=0.3)
+    shapes.put_box(scene, (-1.5, 0.7, 3.3), (-0.1, 0.74, 4.9), walnut)
+    for corner in ((-1.44, 3.36), (-0.22, 3.36), (-1.44, 4.78), (-0.22, 4.78)):
+        shapes.put_box(scene, (corner[0], 0, corner[1]), (corner[0] + 0.06, 0.7, corner[1] + 0.06), walnut)
+    for z in (3.6, 4.35):
+        seat = shapes.lathe(scene, [(0.0, 0.43), (0.17, 0.43), (0.18, 0.445), (0.17, 0.46), (0.0, 0.46)], 48)
+        scene.add_instance(seat, [wood], transform=shapes.at(0.28, 0, z))
+        leg = shapes.lathe(scene, [(0.02, 0.0), (0.02, 0.43)], 24)
+        for turn in (0.3, 2.4, 4.5):
+            scene.add_instance(leg, [wood], transform=shapes.at(0.28 + 0.12 * numpy.cos(turn), 0, z + 0.12 * numpy.sin(turn)))
+    clay = scene.add_material(base_color=(0.7, 0.68, 0.64), specular_roughness=0.25)
+    jug = shapes.round_profile([(0.0, 0.0), (0.06, 0.0), (0.095, 0.08), (0.075, 0.17), (0.045, 0.22), (0.06, 0.26), (0.052, 0.258), (0.04, 0.22)])
+    scene.add_instance(shapes.lathe(scene, jug), [clay], transform=shapes.at(-0.75, 0.74, 4.25))
+    bowl = shapes.round_profile([(0.0, 0.0), (0.05, 0.002), (0.12, 0.05), (0.13, 0.075), (0.125, 0.075), (0.11, 0.05), (0.0, 0.012)])
+    blue = scene.add_material(base_color=(0.05, 0.14, 0.22), specular_roughness=0.15)
+    scene.add_instance(shapes.lathe(scene, bowl), [blue], transform=shapes.at(-1.05, 0.74, 3.75))
+
+
 def finished(scene: gonio.Scene) -> gonio.Film:
     """The film of the whole render."""
     with gonio.Render(scene) as render:
@@ -52,7 +88,7 @@ def daylight_factors() -> list[tuple[float, float]]:
     # A black strip in the work plane measures and reflects nothing; the camera looks down on it from the ceiling.
     strip = [(-0.2, WORK_PLANE, DEPTH), (0.2, WORK_PLANE, DEPTH), (0.2, WORK_PLANE, 0), (-0.2, WORK_PLANE, 0)]
     add_quad(scene, strip, 0.0)
-    down = [[1, 0, 0, 0], [0, 0, 1, HEIGHT - 0.01], [0, -1, 0, DEPTH / 2], [0, 0, 0, 1]]
+    down = gonio.look_at((0, HEIGHT - 0.01, DEPTH / 2), (0, 0, DEPTH / 2), (0, 0, -1))
     scene.add_camera(down, fov=115.0)
     film = finished(scene)
     lux, points = numpy.asarray(film["illuminance"])[..., 0], numpy.asarray(film["P"])
@@ -69,15 +105,14 @@ def main() -> None:
     for place, factor in daylight_factors():
         print(f"{place:.1f} m from the window: daylight factor {factor:.1f} %")
     scene = room()
-    day = gonio.daylight(*PLACE, "2025-09-21T14:30+02:00", ground=0.2)
+    furnish(scene)
+    day = gonio.daylight(*PLACE, "2025-09-21T15:10+02:00", ground=0.2)
     print(day)
     scene.add_daylight(day, up="Y")
-    scene.set(width=480, height=360, samples=512, passes=["color"])
-    # From the back of the room towards the window, turned a little to the wall that the sun meets.
-    turn = numpy.radians(195.0)
-    sine, cosine = numpy.sin(turn), numpy.cos(turn)
-    scene.add_camera([[cosine, 0, sine, -1.2], [0, 1, 0, 1.5], [-sine, 0, cosine, 0.5], [0, 0, 0, 1]], fov=62.0)
-    finished(scene).write_picture(sys.argv[1] if len(sys.argv) > 1 else "daylight_room.png")
+    scene.set(width=960, height=640, samples=192)
+    # From the back of the room towards the window, turned to the wall that the sun meets.
+    scene.add_camera(gonio.look_at((1.35, 1.5, 0.45), (-0.85, 1.12, 5.2)), fov=50.0)
+    shapes.finished(scene, sys.argv[1] if len(sys.argv) > 1 else "daylight_room.png", exposure=0.4, white=9.0)
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@ import sys
 
 import gonio
 import numpy
+from numpy.typing import NDArray
 
 WIDTH, DEPTH, HEIGHT = 4.0, 3.0, 2.8
 DESK_WIDTH, DESK_DEPTH, DESK_HEIGHT = 1.6, 0.8, 0.74
@@ -19,7 +20,7 @@ def add_quad(scene: gonio.Scene, corners: list[tuple[float, float, float]], refl
 def office() -> gonio.Scene:
     """A room with reflectances of 0.7, 0.5 and 0.2, a desk, two panels of 3000 cd/m², and a camera under the ceiling."""
     scene = gonio.Scene()
-    scene.set(width=320, height=320, samples=64, passes=["color", "illuminance", "P"])
+    scene.set(width=640, height=640, samples=64, passes=["color", "illuminance", "P"])
     w, d, h = WIDTH / 2, DEPTH / 2, HEIGHT
     add_quad(scene, [(-w, 0, d), (w, 0, d), (w, 0, -d), (-w, 0, -d)], 0.2)
     add_quad(scene, [(-w, h, -d), (w, h, -d), (w, h, d), (-w, h, d)], 0.7)
@@ -31,10 +32,19 @@ def office() -> gonio.Scene:
     add_quad(scene, [(-x, y, z), (x, y, z), (x, y, -z), (-x, y, -z)], 0.4)
     # Cameras look and flat lights shine along their -z, here turned downwards.
     for place in (-1.0, 1.0):
-        down = [[1, 0, 0, place], [0, 0, 1, h - 0.01], [0, -1, 0, -0.7], [0, 0, 0, 1]]
+        down = gonio.look_at((place, h - 0.01, -0.7), (place, 0, -0.7), (0, 0, -1))
         scene.add_light("rectangle", (3000.0,) * 3, width=0.6, height=0.6, transform=down)
-    scene.add_camera([[1, 0, 0, 0], [0, 0, 1, h - 0.05], [0, -1, 0, 0], [0, 0, 0, 1]], fov=56.0)
+    scene.add_camera(gonio.look_at((0, h - 0.05, 0), (0, 0, 0), (0, 0, -1)), fov=56.0)
     return scene
+
+
+def smooth(lux: NDArray[numpy.float32], radius: int = 4) -> NDArray[numpy.float32]:
+    """Means over squares of 2 · radius + 1 pixels: the steps of false colour are to follow the light, not its noise."""
+    wide = numpy.pad(lux, radius, mode="edge")
+    side = 2 * radius + 1
+    windows = numpy.lib.stride_tricks.sliding_window_view(wide, (side, side))
+    means: NDArray[numpy.float32] = windows.mean(axis=(2, 3)).astype("f4")
+    return means
 
 
 def main() -> None:
@@ -45,11 +55,12 @@ def main() -> None:
         film = render.film()
     lux = numpy.asarray(film["illuminance"])[..., 0]
     points = numpy.asarray(film["P"])
-    # Pixels whose every sample fell on the desk; their noise is averaged over blocks of 8 x 8.
+    # Pixels whose every sample fell on the desk; their noise is averaged over blocks of 16 x 16.
     desk = numpy.abs(points[..., 1] - DESK_HEIGHT) < 1e-3
-    blocks = numpy.where(desk, lux, numpy.nan).reshape(40, 8, 40, 8).mean(axis=(1, 3))
+    blocks = numpy.where(desk, lux, numpy.nan).reshape(40, 16, 40, 16).mean(axis=(1, 3))
     print(f"E_avg {numpy.nanmean(blocks):.0f} lx, E_min {numpy.nanmin(blocks):.0f} lx, E_max {numpy.nanmax(blocks):.0f} lx")
-    film.write_picture(sys.argv[1] if len(sys.argv) > 1 else "lux_on_a_desk.png")
+    shown = gonio.false_colour(smooth(lux), unit="lx", max=500, contours=True)
+    shown.write(sys.argv[1] if len(sys.argv) > 1 else "lux_on_a_desk.png")
 
 
 if __name__ == "__main__":
