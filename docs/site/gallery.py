@@ -20,35 +20,36 @@ OUT = ROOT / "out" / "gallery"
 
 @dataclass(frozen=True)
 class Picture:
-    """A picture, what it shows, the file that made it, and the commands, run from the repository's root; `kept` stands beside its file."""
+    """A picture, what it shows, the file that made it, and the commands, run from the repository's root."""
 
     name: str
     title: str
     words: str
     source: str
-    commands: tuple[str, ...] = ()
-    kept: str = ""
+    commands: tuple[str, ...]
 
     def place(self) -> Path:
-        return ROOT / self.kept if self.kept else OUT / self.name
+        return OUT / self.name
 
 
 OFFICE = "examples/usd/office.usda"
-SMALL = "--res 480 320 --spp 16 --denoise"
+LARGE = "--res 960 540 --spp 48 --denoise"
+
+
+def script(name: str, title: str, words: str, *files: str) -> Picture:
+    """A picture by a script of `examples/python`, which also writes other files."""
+    source = f"examples/python/{name}.py"
+    named = " ".join(f"out/gallery/{file}" for file in (f"{name}.png", *files))
+    return Picture(f"{name}.png", title, words, source, (f"python {source} {named}",))
+
+
 PICTURES = (
     Picture(
         "office.png",
         "An office",
         "Four ceiling panels, a task lamp of 300 lm, daylight in the window.",
         OFFICE,
-        (f"gonio render {OFFICE} -o out/gallery/office.exr -o out/gallery/office.png {SMALL} --exposure 0.7 --aov color,luminance",),
-    ),
-    Picture(
-        "office_sun.png",
-        "The office in the sun",
-        "The same stage in Vienna, on a late afternoon in March.",
-        OFFICE,
-        (f"gonio render {OFFICE} -o out/gallery/office_sun.png {SMALL} --sun 48.21,16.37,2025-03-21T16:30+01:00",),
+        (f"gonio render {OFFICE} -o out/gallery/office.exr -o out/gallery/office.png {LARGE} --exposure 0.7 --aov color,luminance",),
     ),
     Picture(
         "office_luminance.png",
@@ -64,7 +65,7 @@ PICTURES = (
         OFFICE,
         (
             f"gonio measure {OFFICE} --grid /Office/Room/Walls/Planks --height 0.75 --margin 0.5 --spacing 0.4 --max 1000"
-            " --spp 256 -o out/gallery/office_plane.png",
+            " --spp 1024 -o out/gallery/office_plane.png",
         ),
     ),
     Picture(
@@ -72,52 +73,37 @@ PICTURES = (
         "Lux on all surfaces",
         "An illumination map, seen from the stage's camera.",
         OFFICE,
-        (f"gonio map {OFFICE} --view /Office/Camera --image-width 480 --paths 2000000 --max 1000 -o out/gallery/office_map.png",),
+        (f"gonio map {OFFICE} --view /Office/Camera --image-width 960 --paths 16000000 --max 1000 -o out/gallery/office_map.png",),
     ),
+    script("night_street", "A street after rain", "A street lamp's light distribution, wet asphalt, and what people left on."),
+    script("relief_wall", "A relief in grazing light", "Displacement, cut to a pixel, and four wall washers."),
+    script(
+        "cad_to_room",
+        "From a luminaire's parts to a room",
+        "A downlight's geometry goes through the virtual goniophotometer; its EULUMDAT file lights the gallery.",
+        "downlight.ldt",
+    ),
+    script("caustics", "Caustics", "Two glasses and a brass ring beside one small lamp: light paths bring the bright lines."),
+    script("daylight_room", "Sun through a window", "September in Vienna. The script prints the room's daylight factors as well."),
+    script("depth_of_field", "Depth of field", "Candles of 12 lm, glass, and a fast lens."),
+    script("car_paint", "Car paints", "Tables of measurements under a clear coat."),
+    script("hair", "Hair", "A braid of twenty-seven thousand hairs between two rim lights."),
+    script("pinwheels", "Motion blur", "Pinwheels that turn while the shutter is open."),
+    Picture(
+        "office_sun.png",
+        "The office in the sun",
+        "The same stage in Vienna, on a late afternoon in March.",
+        OFFICE,
+        (f"gonio render {OFFICE} -o out/gallery/office_sun.png {LARGE} --sun 48.21,16.37,2025-03-21T16:30+01:00",),
+    ),
+    script("cornell_box", "The Cornell box", "Built from numpy arrays."),
+    script("lux_on_a_desk", "Lux on a desk", "From above, in steps of lux. The script prints the desk's mean, lowest and highest illuminance."),
     Picture(
         "sundial.png",
         "A sundial",
         "Sun and sky from attributes of the stage; 15:00 on the clock.",
         "examples/usd/sundial.usda",
-        ("gonio render examples/usd/sundial.usda -o out/gallery/sundial.png --tonemap none --frames 9 --res 480 320 --spp 16",),
-    ),
-    Picture(
-        "cornell_box.png",
-        "The Cornell box",
-        "Built from numpy arrays.",
-        "examples/python/cornell_box.py",
-        ("python examples/python/cornell_box.py out/gallery/cornell_box.png",),
-    ),
-    Picture(
-        "lux_on_a_desk.png",
-        "A desk from above",
-        "The script prints the desk's mean, lowest and highest illuminance.",
-        "examples/python/lux_on_a_desk.py",
-        ("python examples/python/lux_on_a_desk.py out/gallery/lux_on_a_desk.png",),
-    ),
-    Picture(
-        "daylight_room.png",
-        "Sun through a window",
-        "The script prints the room's daylight factors.",
-        "examples/python/daylight_room.py",
-        ("python examples/python/daylight_room.py out/gallery/daylight_room.png",),
-    ),
-    Picture(
-        "measured_lobes.png",
-        "Lobes of a measured metal",
-        "The metal, its copy in a file, and where samples fall.",
-        "examples/python/measured_lobes.py",
-        ("python examples/python/measured_lobes.py out/gallery/measured_lobes.png out/gallery/brushed.gbsdf",),
-    ),
-    Picture(
-        "measured.png",
-        "Measured materials",
-        "A brushed metal, a car paint and a woven shade, each from a file of its own format.",
-        "examples/usd/make_measured_stage.py",
-        (
-            "python examples/usd/make_measured_stage.py out/gallery/brushed.gbsdf out/gallery/measured",
-            f"gonio render out/gallery/measured/measured.usda -o out/gallery/measured.png {SMALL}",
-        ),
+        ("gonio render examples/usd/sundial.usda -o out/gallery/sundial.png --tonemap none --frames 9 --res 960 640 --spp 64 --denoise",),
     ),
     Picture(
         "downlight.svg",
@@ -125,24 +111,11 @@ PICTURES = (
         "The virtual goniophotometer's polar diagram of an LED in a reflector.",
         "examples/usd/downlight.usda",
         (
-            "gonio goniometer examples/usd/downlight.usda --luminaire /World/Downlight --error 1% -o out/gallery/downlight.ldt"
+            "gonio goniometer examples/usd/downlight.usda --luminaire /World/Downlight --error 1% -o out/gallery/measured_downlight.ldt"
             " --polar out/gallery/downlight.svg",
         ),
     ),
-    Picture(
-        "room.png",
-        "A room in Blender",
-        "Made and rendered without a window.",
-        "examples/blender/make_room.py",
-        kept="examples/blender/room.png",
-    ),
-    Picture(
-        "measured_ball.png",
-        "A measured ball in Blender",
-        "Brushed metal through the node *Measured BSDF*.",
-        "examples/blender/make_measured_ball.py",
-        kept="examples/blender/measured_ball.png",
-    ),
+    script("measured_lobes", "Lobes of a measured metal", "The metal, its copy in a file, and where samples fall.", "brushed.gbsdf"),
 )
 
 
@@ -150,7 +123,8 @@ def stamp(picture: Picture) -> str:
     """Changes when the picture may: with its commands, its file, and the engine."""
     engine = Path(importlib.util.find_spec("gonio._gonio").origin).stat()
     seen = hashlib.sha256(f"{picture.commands} {engine.st_size} {engine.st_mtime_ns}".encode())
-    seen.update((ROOT / picture.source).read_bytes())
+    for path in (picture.source, "examples/python/shapes.py"):
+        seen.update((ROOT / path).read_bytes())
     return seen.hexdigest()
 
 
@@ -164,9 +138,9 @@ def run(command: str) -> None:
 
 
 def make(picture: Picture) -> None:
-    """Makes a picture that is not kept and not there as it would be now."""
-    mark, now = OUT / f"{picture.name}.stamp", "" if picture.kept else stamp(picture)
-    if picture.kept or (picture.place().exists() and mark.exists() and mark.read_text() == now):
+    """Makes a picture that is not there as it would be now."""
+    mark, now = OUT / f"{picture.name}.stamp", stamp(picture)
+    if picture.place().exists() and mark.exists() and mark.read_text() == now:
         return
     started = time.monotonic()
     for command in picture.commands:
@@ -180,7 +154,7 @@ def page() -> str:
     lines = [
         "# Gallery",
         "",
-        "Each picture with the file that made it. They are small, and have few samples: `make docs` renders them.",
+        "Each picture with the file that made it. `make docs` renders them in about ten minutes on two cores; what is there already stays.",
         "",
     ]
     lines += ["More about each stands in the [README of the examples](examples/README.md).", "", '<div class="gallery" markdown>', ""]
@@ -193,8 +167,7 @@ def figure(picture: Picture) -> list[str]:
     path = picture.place()
     shown = f"![{picture.title}]({path.relative_to(ROOT)})" if path.exists() else "*Not rendered: `make docs` does that.*"
     words = [f"**{picture.title}.** {picture.words} From [{Path(picture.source).name}]({picture.source}).", ""]
-    commands = ["```", *picture.commands, "```", ""] if picture.commands else []
-    return ["<div markdown>", "", shown, "", *words, *commands, "</div>", ""]
+    return ["<div markdown>", "", shown, "", *words, "```", *picture.commands, "```", "", "</div>", ""]
 
 
 if __name__ == "__main__":

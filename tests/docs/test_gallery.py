@@ -17,14 +17,14 @@ def gallery():
 
 def test_pictures_have_their_files():
     pictures = gallery().PICTURES
-    assert len({picture.name for picture in pictures}) == len(pictures)
+    assert len({picture.name for picture in pictures}) == len(pictures) >= 12
     for picture in pictures:
         assert (REPOSITORY / picture.source).is_file(), picture
-        assert (REPOSITORY / picture.kept).is_file() if picture.kept else f"out/gallery/{picture.name}" in picture.commands[-1], picture
+        assert f"out/gallery/{picture.name}" in picture.commands[-1], picture
 
 
 def test_a_changed_command_is_another_stamp():
     module = gallery()
-    first = next(picture for picture in module.PICTURES if picture.commands)
+    first = module.PICTURES[0]
     other = module.Picture(first.name, first.title, first.words, first.source, ("gonio info x.usda",))
     assert module.stamp(first) == module.stamp(first) != module.stamp(other)
