@@ -47,17 +47,43 @@ def test_hermite_curves_become_bezier_spans(tmp_path):
     assert curves["widths"]["interpolation"] == "Varying"
 
 
+def bezier(curves, number=0, samples=5):
+    """Points along all spans of a curve, with values of its points beside."""
+    counts = curves["counts"]
+    first, points = sum(counts[:number]), np.array(curves["points"])
+    t = np.linspace(0, 1, samples)[:, None]
+    weights = [(1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t**2 * (1 - t), t**3]
+
+    def along(values):
+        own = np.asarray(values).reshape(len(points), -1)[first : first + counts[number]]
+        return np.concatenate([sum(w * own[at + k] for k, w in enumerate(weights)) for at in range(0, len(own) - 1, 3)])
+
+    assert curves["basis"] == "Bezier" and counts[number] % 3 == 1
+    return along(points), along
+
+
+def nurbs(tmp_path, body, points, extra="float[] widths = [0.1] (interpolation = \"constant\")"):
+    scene, messages = read(tmp_path, f'def NurbsCurves "a"\n{{\n{body}\npoint3f[] points = {[tuple(p) for p in points]}\n{extra}\n}}\n')
+    return scene["curves"][0], messages
+
+
+ARCH = [(0, 0, 0), (0, 2, 0), (2, 2, 0), (2, 0, 0)]
+
+
 def test_nurbs_curves_follow_their_basis(tmp_path):
     body = "int[] curveVertexCounts = [4]\nint[] order = [4]\ndouble[] knots = [0, 0, 0, 0, 1, 1, 1, 1]\n"
-    points = "point3f[] points = [(0, 0, 0), (1, 2, 0), (2, 2, 0), (3, 0, 0)]\nfloat[] widths = [0.1, 0.1, 0.3, 0.3]\n"
-    scene, _ = read(tmp_path, f'def NurbsCurves "a"\n{{\n{body}{points}}}\n')
-    (curves,) = scene["curves"]
-    # With these knots it is a Bézier span.
-    t = np.linspace(0, 1, len(curves["points"]))[:, None]
-    control = np.array([(0, 0, 0), (1, 2, 0), (2, 2, 0), (3, 0, 0)], dtype=float)
+    values = "float[] widths = [0.1, 0.1, 0.3, 0.3]\ncolor3f[] primvars:tint = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (1, 1, 1)] (interpolation = \"vertex\")\n"
+    curves, messages = nurbs(tmp_path, body, ARCH, values)
+    assert messages == [message for message in messages if "camera" in message]
+    # With these knots it is a Bézier span, here cut into many.
+    found, along = bezier(curves)
+    t = np.concatenate([(number + np.linspace(0, 1, 5)) / 32 for number in range(32)])[:, None]
     weights = [(1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t**2 * (1 - t), t**3]
-    assert np.allclose(curves["points"], sum(w * p for w, p in zip(weights, control, strict=True)), atol=1e-6)
-    assert np.allclose(curves["widths"]["values"], sum(w * p for w, p in zip(weights, (0.1, 0.1, 0.3, 0.3), strict=True))[:, 0])
+    of = lambda control: sum(w * np.atleast_1d(p) for w, p in zip(weights, np.array(control, dtype=float), strict=True))  # noqa: E731
+    assert np.allclose(found, of(ARCH), atol=1e-6)
+    assert np.allclose(along(curves["widths"]["values"])[:, 0], of([0.1, 0.1, 0.3, 0.3])[:, 0], atol=1e-6)
+    (tint,) = curves["primvars"]
+    assert tint["interpolation"] == "Vertex" and np.allclose(along(tint["values"]), of([(0, 0, 0), (1, 0, 0), (1, 1, 0), (1, 1, 1)]), atol=1e-6)
 
 
 def test_nurbs_curves_pass_knots_between_their_ends(tmp_path):
@@ -67,10 +93,79 @@ def test_nurbs_curves_pass_knots_between_their_ends(tmp_path):
         ("0, 1, 2, 3, 4, 5, 6, 7, 8", [(1 / 6, 2 / 3, 1 / 6, 0, 0), (0, 1 / 6, 2 / 3, 1 / 6, 0), (0, 0, 1 / 6, 2 / 3, 1 / 6)]),
     ):
         body = f"int[] curveVertexCounts = [5]\nint[] order = [4]\ndouble[] knots = [{knots}]\n"
-        points = f"point3f[] points = {[tuple(point) for point in control.tolist()]}\nfloat[] widths = [0.1, 0.1, 0.1, 0.1, 0.1]\n"
-        scene, _ = read(tmp_path, f'def NurbsCurves "a"\n{{\n{body}{points}}}\n')
-        found = np.array(scene["curves"][0]["points"])[[0, 8, 16]]
-        assert np.allclose(found, np.array(joints) @ control, atol=1e-6), knots
+        curves, _ = nurbs(tmp_path, body, control.tolist())
+        found = np.array(curves["points"])
+        assert np.allclose(found[[0, len(found) // 2, -1]], np.array(joints) @ control, atol=1e-6), knots
+
+
+QUARTER = [(1, -2, 0), (1, -1, 0), (0, -1, 0)]
+
+
+@pytest.mark.parametrize("wide", [0.1, 1.5])
+def test_rational_curves_are_round(tmp_path, wide):
+    body = "int[] curveVertexCounts = [3]\nint[] order = [3]\ndouble[] knots = [0, 0, 0, 1, 1, 1]\ndouble[] pointWeights = [1, 0.7071067811865476, 1]\n"
+    curves, _ = nurbs(tmp_path, body, QUARTER, f"float[] widths = [{wide}] (interpolation = \"constant\")")
+    found, _ = bezier(curves)
+    assert np.abs(np.hypot(found[:, 0], found[:, 1] + 2) - 1).max() < 1e-6
+    assert np.allclose(found[[0, -1]], [(1, -2, 0), (0, -1, 0)], atol=1e-6)
+
+
+def test_ranges_cut_nurbs_curves(tmp_path):
+    body = "int[] curveVertexCounts = [4, 3]\nint[] order = [4, 3]\ndouble[] knots = [0, 0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 2, 2, 2]\ndouble2[] ranges = [(0, 0.5), (1, 2)]\n"
+    curves, _ = nurbs(tmp_path, body, ARCH + QUARTER)
+    first, _ = bezier(curves)
+    assert np.allclose(first[[0, -1]], [(0, 0, 0), (1, 1.5, 0)], atol=1e-6)
+    second, _ = bezier(curves, 1)
+    assert np.allclose(second[[0, -1]], [(0.75, -1.25, 0), (0, -1, 0)], atol=1e-6)
+
+
+def test_knots_as_modelling_programs_count_them(tmp_path):
+    """Without the first and the last, as Maya and Rhino have them."""
+    body = "int[] curveVertexCounts = [4]\nint[] order = [4]\ndouble[] knots = [{}]\n"
+    curves, _ = nurbs(tmp_path, body.format("0, 0, 0, 1, 1, 1"), ARCH)
+    whole, _ = nurbs(tmp_path, body.format("0, 0, 0, 0, 1, 1, 1, 1"), ARCH)
+    assert curves["points"] == whole["points"]
+
+
+def test_values_at_knots_go_straight_between_them(tmp_path):
+    body = "int[] curveVertexCounts = [4]\nint[] order = [3]\ndouble[] knots = [0, 0, 0, 1, 2, 2, 2]\n"
+    curves, _ = nurbs(tmp_path, body, ARCH, "float[] widths = [0.1, 0.5, 0.3] (interpolation = \"varying\")")
+    widths = curves["widths"]
+    assert widths["interpolation"] == "Varying"
+    half = len(widths["values"]) // 2
+    assert np.allclose(widths["values"], np.interp(np.linspace(0, 2, 2 * half + 1), [0, 1, 2], [0.1, 0.5, 0.3]), atol=1e-6)
+
+
+@pytest.mark.parametrize(("interpolation", "widths", "middle"), [("vertex", (0.0, 0.0, 0.8, 0.8), 0.4), ("varying", (0.2, 0.8), 0.5), ("vertex", (0.8, 0.0, 0.0, 0.8), 0.2)])  # fmt: skip
+def test_widths_along_a_bezier_curve_are_seen(tmp_path, interpolation, widths, middle):
+    """The height of a straight curve's middle, from the points that are seen there."""
+    path = tmp_path / "stage.usda"
+    path.write_text(f"""#usda 1.0
+(
+    metersPerUnit = 1
+    upAxis = "Y"
+)
+def BasisCurves "a"
+{{
+    int[] curveVertexCounts = [4]
+    point3f[] points = [(-3, 0, 0), (-1, 0, 0), (1, 0, 0), (3, 0, 0)]
+    float[] widths = {list(widths)} (interpolation = "{interpolation}")
+}}
+def Camera "Cam"
+{{
+    token projection = "orthographic"
+    float horizontalAperture = 0.5
+    float verticalAperture = 10
+    double3 xformOp:translate = (0, 0, 5)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}}
+""")
+    scene = gonio.load_usd(str(path))
+    scene.set(width=5, height=100, samples=16, passes=["alpha"], filter="box", filter_width=1.0)
+    with gonio.Render(scene) as render:
+        assert render.wait()
+        covered = np.asarray(render.film()["alpha"])
+    assert covered[:, 2].sum() / 100 == pytest.approx(middle, abs=0.015)
 
 
 def test_points_have_widths_and_values(tmp_path):

@@ -49,7 +49,7 @@ pub fn read<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, type_name: &s
     let lines = Lines { points, counts, widths, primvars, ..Lines::default() };
     let lines = match type_name {
         "HermiteCurves" => hermite(context, prim, lines)?,
-        "NurbsCurves" => nurbs::tessellated(context, prim, lines)?,
+        "NurbsCurves" => nurbs::spans(context, prim, lines)?,
         _ => basis(context, prim, lines),
     };
     Some(finished(context, prim, lines))
