@@ -19,6 +19,7 @@ OTHERS = """## Others
 | attribute | type | what |
 | --- | --- | --- |
 | `gonio:fisheye` | double | of a Camera: an equidistant fisheye with this full field of view in degrees ([glare](docs/measuring.md#from-pictures)) |
+| `gonio:hideLights` | bool | of RenderSettings: the camera sees no lamp ([what that means](docs/usd.md#lamps-before-the-camera)) |
 | `primvars:gonio:visibility:camera` | bool | of a light: false hides it from the camera; `ri`'s and `arnold`'s attributes of that meaning count too |
 
 Measured materials are shaders of the id `gonio:MeasuredBSDF` ([inputs](docs/measured-materials.md#in-usd)).

@@ -3,6 +3,7 @@
 import json
 import re
 
+import numpy as np
 import pictures
 import pytest
 from failures import fails
@@ -54,6 +55,42 @@ def test_info_as_json(run, room):
     assert said["prims"]["Mesh"] == 1 and said["instances"] == 3 and said["triangles"] > 14
     assert said["lights"][0]["path"] == "/Lamp" and "400 cd/m²" in said["lights"][0]["what"]
     assert said["bounds"][0] == pytest.approx([-3, 0, -3], abs=1e-4) and said["diagnostics"] == []
+
+
+QUANTITIES = """
+def SphereLight "Lamp" (prepend apiSchemas = ["LightAPI"])
+{
+    token gonio:photometry:unit = "lm"
+    double gonio:photometry:quantity = 800
+    color3f inputs:color = (1, 0.5, 0.25)
+    float inputs:radius = 5
+    double3 xformOp:translate = (100, 200, 300)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+def RectLight "Panel"
+{
+    float inputs:width = 120
+    float inputs:height = 60
+    float inputs:intensity = 3200
+}
+def DistantLight "Sun"
+{
+    float inputs:angle = 0.5
+    float inputs:intensity = 2
+}
+"""
+
+
+def test_lights_as_numbers_with_units(run, tmp_path):
+    stage = pictures.stage(tmp_path / "a.usda", QUANTITIES, pictures.camera(), metres=0.01)
+    lamp, panel, sun = json.loads(run("info", stage, "--json").stdout)["lights"]
+    assert (lamp["shape"], lamp["strength"], lamp["unit"], lamp["flux_lm"]) == ("sphere", 800, "lm", pytest.approx(800, rel=1e-3))
+    assert lamp["size_m"] == pytest.approx([0.1] * 3) and lamp["position_m"] == pytest.approx([1, 2, 3])
+    assert lamp["colour"][1] == pytest.approx(lamp["colour"][0] / 2) and np.dot(lamp["colour"], (0.2126, 0.7152, 0.0722)) == pytest.approx(1, rel=1e-3)
+    assert (panel["shape"], panel["strength"], panel["unit"]) == ("rectangle", pytest.approx(3200), "cd/m²")
+    assert panel["size_m"][:2] == pytest.approx([1.2, 0.6]) and panel["flux_lm"] == pytest.approx(3200 * np.pi * 1.2 * 0.6, rel=1e-3)
+    assert (sun["shape"], sun["angle_deg"], sun["size_m"], sun["position_m"], sun["flux_lm"]) == ("distant", 0.5, None, None, None)
+    assert (sun["strength"], sun["unit"], sun["seen_by_camera"]) == (2, "cd/m²", True)
 
 
 def test_info_of_a_frame_and_of_faults(run, tmp_path):

@@ -106,3 +106,22 @@ def test_several_frames_need_a_place_in_the_name(run, tmp_path):
 @pytest.mark.parametrize("frames", ["x", "1:", "1:3x0", "nan", "", "1:1e30"])
 def test_bad_frames(run, room, tmp_path, frames):
     assert "frames" in fails(run, "render", room, f"--frames={frames}", "-o", tmp_path / "a.####.exr")
+
+
+@pytest.mark.parametrize(("pattern", "name"), [("a.$F4.exr", "a.0007.exr"), ("a.<F4>.exr", "a.0007.exr"), ("a.%04d.exr", "a.0007.exr"), ("a.####.exr", "a.0007.exr"), ("a.$F.exr", "a.7.exr")])  # fmt: skip
+def test_a_place_for_the_frame_takes_the_stages_own(run, tmp_path, pattern, name):
+    """As husk has it."""
+    stage = pictures.stage(tmp_path / "s.usda", pictures.ROOM, pictures.camera())
+    stage.write_text(stage.read_text().replace("upAxis", "startTimeCode = 7\n    endTimeCode = 8\n    upAxis", 1))
+    done = run("render", stage, "-o", tmp_path / pattern, "--spp", 1, "--res", 4, 4)
+    assert done.returncode == 0, done.stderr
+    assert sorted(path.name for path in tmp_path.glob("*.exr")) == [name]
+
+
+def test_a_place_for_the_frame_without_any(run, tmp_path):
+    stage = pictures.stage(tmp_path / "s.usda", pictures.ROOM, pictures.camera())
+    done = run("render", stage, "-o", tmp_path / "a.$F4.exr", "--spp", 1, "--res", 4, 4)
+    assert done.returncode == 0 and [path.name for path in tmp_path.glob("*.exr")] == ["a.0001.exr"], done.stderr
+    done = run("render", stage, "-o", tmp_path / "b.$F4.exr", "--spp", 1, "--res", 4, 4, "--default-time")
+    assert done.returncode == 1 and "--default-time is of no frame" in done.stderr, done.stderr
+    assert not list(tmp_path.glob("b*"))

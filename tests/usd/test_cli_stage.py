@@ -89,3 +89,100 @@ def test_many_warnings_are_cut_short_without_verbose(run, tmp_path):
     brief = run("render", stage, "-o", tmp_path / "a.exr", "--res", 8, 8, "--spp", 1).stderr
     assert brief.count("gonio: warning: ") == 20 and "10 more" in brief
     assert run("render", stage, "-o", tmp_path / "a.exr", "--res", 8, 8, "--spp", 1, "-v").stderr.count("gonio: warning: ") == 30
+
+
+MASKED = """
+def Scope "Looks"
+{
+    def Material "Red"
+    {
+        token outputs:surface.connect = </Looks/Red/S.outputs:surface>
+        def Shader "S"
+        {
+            uniform token info:id = "UsdPreviewSurface"
+            color3f inputs:diffuseColor = (0.7, 0.1, 0.1)
+            token outputs:surface
+        }
+    }
+}
+def Xform "World" (prepend apiSchemas = ["MaterialBindingAPI"])
+{
+    rel material:binding = </Looks/Red>
+    def Cube "Bound"
+    {
+        double size = 1
+    }
+    def Cube "Other"
+    {
+        double size = 1
+    }
+    def PointInstancer "Copies"
+    {
+        rel prototypes = [</Elsewhere/Ball>]
+        int[] protoIndices = [0, 0]
+        point3f[] positions = [(2, 0, 0), (4, 0, 0)]
+    }
+}
+def Scope "Elsewhere"
+{
+    def Sphere "Ball" { }
+}
+def Scope "Lights"
+{
+    def SphereLight "Lamp" (prepend apiSchemas = ["CollectionAPI:lightLink"])
+    {
+        rel collection:lightLink:includes = </World/Other>
+        bool collection:lightLink:includeRoot = 0
+    }
+    def SphereLight "Second" { }
+}
+"""
+
+
+def masked(run, tmp_path, paths):
+    stage = pictures.stage(tmp_path / "m.usda", MASKED, pictures.camera())
+    done = run("info", stage, "--json", "--mask", paths)
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def test_a_mask_takes_in_what_its_prims_refer_to(run, tmp_path):
+    """As usdrecord, by `ExpandPopulationMask`."""
+    said = masked(run, tmp_path, "/World/Bound")
+    assert said["prims"].get("Cube") == 1 and said["lights"] == []
+    # The binding of the prim above, which stands elsewhere.
+    assert said["materials"] == 1 and said["diagnostics"] == []
+    said = masked(run, tmp_path, "/World/Copies")
+    # Two copies, and the prototype, which stands for itself where it is.
+    assert said["instances"] == 3 and "Cube" not in said["prims"]
+    # What a lamp is linked to.
+    said = masked(run, tmp_path, "/Lights/Lamp")
+    assert [light["path"] for light in said["lights"]] == ["/Lights/Lamp"] and said["prims"]["Cube"] == 1
+
+
+def test_a_mask_keeps_the_camera_and_the_settings_that_are_named(run, tmp_path):
+    settings = 'def Scope "Render"\n{\n    def RenderSettings "S"\n    {\n        rel camera = </Cam>\n        uniform int2 resolution = (8, 4)\n    }\n}\n'
+    stage = pictures.stage(tmp_path / "m.usda", MASKED, pictures.camera(), pictures.camera("Left", -2), settings)
+    options = ("--mask", "/World/Bound", "--spp", 1)
+    done = run("render", stage, "-o", tmp_path / "a.exr", *options, "--settings", "/Render/S", "-v")
+    assert done.returncode == 0, done.stderr
+    picture = pictures.read(tmp_path / "a.exr")
+    assert picture.shape == (4, 8) and picture.header["gonio:camera"] == "/Cam"
+    done = run("render", stage, "-o", tmp_path / "b.exr", *options, "--res", 4, 4, "--camera", "/Left")
+    assert done.returncode == 0 and pictures.read(tmp_path / "b.exr").header["gonio:camera"] == "/Left", done.stderr
+    stage.write_text(stage.read_text().replace("upAxis", 'renderSettingsPrimPath = "/Render/S"\n    upAxis', 1))
+    done = run("render", stage, "-o", tmp_path / "c.exr", *options)
+    assert done.returncode == 0 and "renderSettingsPrimPath" not in done.stderr, done.stderr
+    assert pictures.read(tmp_path / "c.exr").shape == (4, 8)
+
+
+def test_a_masks_materials_may_stand_in_a_document(run, tmp_path):
+    (tmp_path / "doc.mtlx").write_text(
+        '<materialx version="1.39"><surface_unlit name="U" type="surfaceshader"/>'
+        '<surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="U"/></surfacematerial></materialx>'
+    )
+    (tmp_path / "looks.usda").write_text('#usda 1.0\n(\n    defaultPrim = "L"\n)\ndef "L" (references = @doc.mtlx@</MaterialX>) {}\n')
+    text = 'def "Looks" (references = @looks.usda@) {}\ndef Cube "C" (prepend apiSchemas = ["MaterialBindingAPI"])\n{\n    rel material:binding = </Looks/Materials/M>\n}\n'
+    stage = pictures.stage(tmp_path / "m.usda", text, pictures.camera())
+    said = json.loads(run("info", stage, "--json", "--mask", "/C").stdout)
+    assert said["materials"] == 1 and said["diagnostics"] == [], said["diagnostics"]

@@ -251,3 +251,21 @@ def test_colours_in_another_gamut(run, tmp_path):
 def test_a_colour_space_that_is_not_linear_is_told(run, tmp_path):
     done = rendered(run, tmp_path, settings('uniform token renderingColorSpace = "srgb_texture"', 'token productName = "a.exr"'))
     assert "renderingColorSpace is 'srgb_texture'" in done.stderr
+
+
+def test_names_of_products_take_the_stages_frame(run, tmp_path):
+    names = ["beauty.$F4.exr", "renders/util.<F4>.exr", "deep.%04d.exr", "q.####.exr"]
+    kinds = ["raster", "raster", "deepRaster", "raster"]
+    product = 'def RenderProduct "P{}"\n{{\n    token productName = "{}"\n    token productType = "{}"\n    rel orderedVars = [</C>]\n}}\n'
+    products = "".join(product.format(number, *each) for number, each in enumerate(zip(names, kinds, strict=True)))
+    targets = ", ".join(f"</P{number}>" for number in range(len(names)))
+    settings = (
+        f'def RenderSettings "S"\n{{\n    rel camera = </Cam>\n    uniform int2 resolution = (6, 6)\n    rel products = [{targets}]\n}}\n'
+        f'def RenderVar "C"\n{{\n    uniform string sourceName = "C"\n}}\n{products}'
+    )
+    stage = pictures.stage(tmp_path / "s.usda", SCENE, settings)
+    stage.write_text(stage.read_text().replace("upAxis", "startTimeCode = 7\n    endTimeCode = 8\n    upAxis", 1))
+    done = run("render", stage, "--spp", 1, cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    found = sorted(str(path.relative_to(tmp_path)) for path in tmp_path.rglob("*.exr"))
+    assert found == ["beauty.0007.exr", "deep.0007.exr", "q.0007.exr", "renders/util.0007.exr"]

@@ -13,6 +13,7 @@ pub mod daylight;
 pub mod dependencies;
 mod draw_mode;
 pub mod explain;
+pub mod frame_name;
 pub mod framing;
 mod goniogram;
 pub mod instancer;

@@ -314,14 +314,18 @@ fn is_connected(prim: &Prim<'_>, name: &str) -> bool {
 
 /// Whether camera rays see the emitter: UsdLux has no say in it, renderers have names of their own.
 pub fn is_seen_by_camera<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> bool {
-    const FLAGS: [&str; 5] = [
+    const FLAGS: [&str; 7] = [
         "primvars:gonio:visibility:camera",
         "primvars:ri:attributes:visibility:camera",
         "primvars:arnold:visibility:camera",
+        "karma:light:renderlightgeo",
+        "primvars:karma:light:renderlightgeo",
         "inputs:visibility:camera",
         "visibleInPrimaryRay",
     ];
     let is_hidden = FLAGS.iter().any(|name| context.get_authored::<bool>(prim, name) == Some(false));
+    // A share.
+    let is_hidden = is_hidden || context.get_authored::<f64>(prim, "primvars:arnold:camera") == Some(0.0);
     let karma = context.get_authored::<String>(prim, "primvars:karma:object:rendervisibility");
     !is_hidden && karma.is_none_or(|expression| karma_shows_primary(&expression))
 }

@@ -124,8 +124,10 @@ pub struct StageOptions {
     pub purposes: Option<Vec<Purpose>>,
     /// How finely curved surfaces are cut.
     pub complexity: Complexity,
-    /// Prim paths to which the stage is limited; empty means all of it.
+    /// Prim paths to which the stage is limited, with what these refer to; empty means all of it.
     pub population_mask: Vec<String>,
+    /// Path of the camera that is looked through, which is read whatever the mask says.
+    pub camera: Option<String>,
     /// Path of a prim that is read alone, with all below it: nothing beside it is, but for what it refers to.
     pub subtree: Option<String>,
     /// Choices that replace those of the files.
@@ -148,6 +150,8 @@ pub struct StageOptions {
     pub disable_motion_blur: bool,
     /// Whether models are shown themselves, whatever `model:drawMode` says.
     pub disable_draw_mode: bool,
+    /// Whether the camera does not see the shapes of lamps, whatever the render settings say.
+    pub hide_lights: bool,
     /// Whether a pass of motion vectors is asked for: where nothing is blurred, things are then read at the frames before and after too.
     pub motion_vectors: bool,
     /// Whether warnings end the reading.
@@ -163,6 +167,7 @@ impl Default for StageOptions {
             purposes: None,
             complexity: Complexity::default(),
             population_mask: Vec::new(),
+            camera: None,
             subtree: None,
             variants: Vec::new(),
             session_layer: None,
@@ -174,6 +179,7 @@ impl Default for StageOptions {
             render_pass: None,
             disable_motion_blur: false,
             disable_draw_mode: false,
+            hide_lights: false,
             motion_vectors: false,
             strict: false,
             lenient: true,
@@ -192,6 +198,7 @@ impl StageOptions {
         let mut options = self.clone();
         if let Some(settings) = settings {
             options.disable_motion_blur |= settings.framing.disable_motion_blur;
+            options.hide_lights |= settings.hide_lights;
             options.motion_vectors |= settings.shows(Aov::Motion);
             options.purposes.get_or_insert_with(|| settings.purposes.clone());
             options.material_binding_purposes.get_or_insert_with(|| settings.material_binding_purposes.clone());

@@ -11,7 +11,7 @@ use crate::render_pass::Role;
 use crate::view::shines;
 use crate::{camera, daylight, light, light_filter, material, mesh_light, meter, primvar};
 use gonio::scene::{
-    Geometry, GridArea, Instances, MaterialId, MeshId, Origin, Primvar, PrimvarInterpolation, Scene, Transform, Visibility,
+    Geometry, GridArea, Instances, Light, MaterialId, MeshId, Origin, Primvar, PrimvarInterpolation, Scene, Transform, Visibility,
 };
 use gonio::{Error, Result};
 use linking::{Collections, LinkTable};
@@ -304,9 +304,10 @@ impl<'py> Placer<'_, '_, 'py> {
                 self.context.scene.lights.push(filtered);
             }
         }
-        if !role.camera {
-            self.context.scene.lights[first..].iter_mut().for_each(|light| light.visibility.camera = false);
-        }
+        let (of_pass, of_all) = (!role.camera, self.context.options.hide_lights);
+        let is_hidden = |light: &Light| of_pass || (of_all && !light.shape.is_at_infinity());
+        let hidden = self.context.scene.lights[first..].iter_mut().filter(|light| is_hidden(light));
+        hidden.for_each(|light| light.visibility.camera = false);
         let links = self.links.of_light(&path);
         if links != Collections::default() {
             self.linked_lights.extend((first..self.context.scene.lights.len()).map(|light| (light, links)));

@@ -60,6 +60,8 @@ pub struct RenderSettings {
     pub material_binding_purposes: Vec<String>,
     /// The gamut in which EXR files have their colours; gonio itself renders in linear Rec.709.
     pub gamut: Gamut,
+    /// Whether the camera does not see the shapes of lamps (`gonio:hideLights`).
+    pub hide_lights: bool,
     /// The files wanted.
     pub products: Vec<Product>,
 }
@@ -123,6 +125,7 @@ fn read<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> RenderSettings
         purposes: purposes(context, prim),
         material_binding_purposes: binding_purposes(context, prim),
         gamut: gamut(context, prim),
+        hide_lights: context.get_authored(prim, "gonio:hideLights").unwrap_or(false),
         products: product_prims.iter().filter_map(|product| read_product(context, prim, product)).collect(),
         origin: prim.origin(),
     }

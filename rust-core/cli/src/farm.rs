@@ -76,7 +76,7 @@ pub(super) fn render(py: Python<'_>, options: &mut RenderOptions, words: &[Strin
 }
 
 fn open(py: Python<'_>, options: &RenderOptions) -> Result<Stage> {
-    Stage::open(py, &options.stage.stage, &stage_options(&options.stage)?)
+    Stage::open(py, &options.stage.stage, &StageOptions { camera: options.camera.clone(), ..stage_options(&options.stage)? })
 }
 
 /// The stage at a frame with what the command line says.
@@ -107,11 +107,12 @@ fn write(options: &RenderOptions, writer: &Writer, files: &[PathBuf], first: &Lo
         gamut: gamut_of(first),
         attributes: &attributes(options, scene),
     };
-    let of_frame = |path: &PathBuf| frame.map_or_else(|| path.clone(), |frame| file_name::for_frame(path, frame));
+    let named = file_name::named_frame(frame, first.info.time_range, options.default_time);
+    let of_frame = |path: &PathBuf| file_name::filled_in(path, named);
     if let Some(path) = &options.files.deep {
-        writer.write_deep(&of_frame(path), &image, &notes, options.quiet)?;
+        writer.write_deep(&of_frame(path)?, &image, &notes, options.quiet)?;
     }
-    let outputs: Vec<PathBuf> = options.files.output.iter().map(of_frame).collect();
+    let outputs: Vec<PathBuf> = options.files.output.iter().map(of_frame).collect::<Result<_>>()?;
     write_cropped(writer, &outputs, &image, &notes, options)
 }
 

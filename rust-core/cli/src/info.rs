@@ -1,6 +1,6 @@
 //! `gonio info`.
 
-use super::{arguments::InfoOptions, explain, light_words::describe, print, render::stage_options};
+use super::{arguments::InfoOptions, explain, lamps_in_view, light_numbers, light_words::describe, print, render::stage_options};
 use gonio::{
     Diagnostic, Result,
     compile::{CompiledScene, compile},
@@ -25,7 +25,8 @@ pub(super) fn info(py: Python<'_>, options: &InfoOptions, interrupted: &AtomicBo
         return explain::tell(py, &stage, &stage_options, &loaded, path);
     }
     let compiled = py.detach(|| compile(&loaded.scene, None, interrupted))?;
-    let diagnostics: Vec<&Diagnostic> = loaded.diagnostics.iter().chain(&compiled.diagnostics).collect();
+    let in_view = lamps_in_view::notes(py, &loaded, &compiled, interrupted)?;
+    let diagnostics: Vec<&Diagnostic> = loaded.diagnostics.iter().chain(&compiled.diagnostics).chain(&in_view).collect();
     if options.json {
         print(&as_json(&loaded, &compiled, &diagnostics).to_string());
     } else {
@@ -50,7 +51,7 @@ fn as_json(loaded: &gonio_usd::Loaded, compiled: &CompiledScene, diagnostics: &[
         "geometry_bytes": s.geometry_bytes,
         "texture_bytes": s.texture_bytes,
         "bounds": if compiled.bounds.is_empty() { Value::Null } else { json!([compiled.bounds.min, compiled.bounds.max]) },
-        "lights": loaded.scene.lights.iter().map(|light| json!({ "path": &*light.origin.name, "what": describe(light) })).collect::<Vec<_>>(),
+        "lights": light_numbers::lights(&loaded.scene),
         "diagnostics": diagnostics.iter().map(|d| json!({ "origin": &*d.origin.name, "message": d.message })).collect::<Vec<_>>(),
     })
 }

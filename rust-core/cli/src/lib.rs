@@ -21,6 +21,8 @@ mod frames;
 mod glare;
 mod goniometer;
 mod info;
+mod lamps_in_view;
+mod light_numbers;
 mod light_words;
 mod map;
 mod measure;

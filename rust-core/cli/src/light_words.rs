@@ -23,12 +23,32 @@ pub(super) fn describe(light: &Light) -> String {
         LightShape::Dome { .. } => "dome".to_owned(),
     };
     let textured = if light.texture.is_some() { ", textured" } else { "" };
-    let strength = light.quantity.map_or_else(|| emitted(light, extents), strength);
+    let strength = match (light.quantity, strength(light)) {
+        (Some(LightQuantity::LampLumens(flux)), _) => format!("lamps of {} lm", short_number(flux)),
+        (Some(LightQuantity::Lux { illuminance, distance }), _) => {
+            format!("{} lx at {} m", short_number(illuminance), short_number(distance))
+        }
+        (_, None) => "as measured".to_owned(),
+        (_, Some((strength, unit))) => format!("{} {unit}", short_number(strength)),
+    };
     format!("{shape}, {strength}{textured}")
 }
 
+/// A light's strength with its unit; `None` where its light distribution alone tells it.
+pub(super) fn strength(light: &Light) -> Option<(f64, &'static str)> {
+    Some(match light.quantity {
+        None => emitted(light, extents(light)),
+        Some(LightQuantity::Lumens(flux) | LightQuantity::LampLumens(flux)) => (flux, "lm"),
+        Some(LightQuantity::Candela(intensity)) => (intensity, "cd"),
+        Some(LightQuantity::Lux { illuminance, .. }) => (illuminance, "lx"),
+        Some(LightQuantity::Nits(luminance)) => (luminance, "cd/m²"),
+        Some(LightQuantity::Watts(watts)) => (watts, "W"),
+        Some(LightQuantity::Measured) => return None,
+    })
+}
+
 /// What the schema's intensity amounts to.
-fn emitted(light: &Light, extents: [f64; 3]) -> String {
+fn emitted(light: &Light, extents: [f64; 3]) -> (f64, &'static str) {
     let strength = f64::from(luminance_of_pixel(light.emission.radiance));
     let unit = match (light.emission.normalized, light.shape) {
         (true, LightShape::Distant { .. }) => "lx on a facing surface",
@@ -36,11 +56,11 @@ fn emitted(light: &Light, extents: [f64; 3]) -> String {
         _ => "cd/m²",
     };
     let factor = if light.emission.normalized { area(light.shape, extents) / light.emission.metres_per_unit.powi(2) } else { 1.0 };
-    format!("{} {unit}", short_number(if factor > 0.0 { strength / factor } else { strength }))
+    (if factor > 0.0 { strength / factor } else { strength }, unit)
 }
 
 /// Lengths in metres in the world along the shape's own axes; a radius counts as a diameter.
-fn extents(light: &Light) -> [f64; 3] {
+pub(super) fn extents(light: &Light) -> [f64; 3] {
     let own = match light.shape {
         LightShape::Rectangle { width, height } | LightShape::Ellipse { width, height } => [width, height, 0.0],
         LightShape::Disk { radius } | LightShape::Sphere { radius } | LightShape::FacingDisk { radius } => [2.0 * radius; 3],
@@ -72,20 +92,6 @@ fn name_of(shape: OpeningShape) -> &'static str {
         OpeningShape::Disk | OpeningShape::DiskFacingX | OpeningShape::DiskFacingY => "disk",
         OpeningShape::VerticalCylinder | OpeningShape::CylinderAlongX | OpeningShape::CylinderAlongY => "cylinder",
         OpeningShape::Ellipsoid => "ellipsoid",
-    }
-}
-
-/// A light's quantity with its unit.
-fn strength(quantity: LightQuantity) -> String {
-    let short = short_number;
-    match quantity {
-        LightQuantity::Lumens(flux) => format!("{} lm", short(flux)),
-        LightQuantity::LampLumens(flux) => format!("lamps of {} lm", short(flux)),
-        LightQuantity::Candela(intensity) => format!("{} cd", short(intensity)),
-        LightQuantity::Lux { illuminance, distance } => format!("{} lx at {} m", short(illuminance), short(distance)),
-        LightQuantity::Nits(luminance) => format!("{} cd/m²", short(luminance)),
-        LightQuantity::Watts(watts) => format!("{} W", short(watts)),
-        LightQuantity::Measured => "as measured".to_owned(),
     }
 }
 

@@ -54,7 +54,7 @@ pub(super) struct Products {
 }
 
 impl Products {
-    /// The pictures that the stage's products ask for at a frame: one for all products that are framed alike and show the same.
+    /// The pictures that the stage's products ask for, named for a frame: one for all products that are framed alike and show the same.
     pub(super) fn pictures(&mut self, loaded: &Loaded, frame: Option<f64>) -> Result<Vec<Picture>> {
         let products = loaded.settings.as_ref().map(|settings| settings.products.as_slice()).unwrap_or_default();
         if products.is_empty() {
@@ -64,7 +64,7 @@ impl Products {
         let mut pictures: Vec<Picture> = Vec::new();
         for (number, product) in products.iter().enumerate() {
             let path = PathBuf::from(&product.name);
-            let path = frame.map_or_else(|| path.clone(), |frame| file_name::for_frame(&path, frame));
+            let path = file_name::filled_in(&path, frame).map_err(|error| Error::scene(&product.origin, error.to_string()))?;
             let checked = if product.deep { check_deep_name(&path) } else { check_name(&path).map(|_| ()) };
             checked.map_err(|error| Error::scene(&product.origin, error.to_string()))?;
             if !self.written.insert(path.clone()) {

@@ -24,6 +24,7 @@ use gonio::{
 use gonio_simd::Execution;
 use gonio_usd::{
     Complexity, Loaded, Purpose, SampleTime, Stage, StageOptions, VariantSelection, camera,
+    frame_name::has_frame,
     framing::is_camera_lit,
     render_variable::{self, RenderVariable, aov_by_name},
     view::{Headlight, Resolution, ViewOptions, complete},
@@ -43,7 +44,8 @@ pub(super) const MOST_WARNINGS: usize = 20;
 
 /// Renders all frames asked for.
 pub(super) fn render(py: Python<'_>, options: &RenderOptions, interrupted: &'static AtomicBool) -> Result<i32> {
-    let mut stage_options = StageOptions { motion_vectors: shows_motion(options), ..stage_options(&options.stage)? };
+    let mut stage_options =
+        StageOptions { motion_vectors: shows_motion(options), camera: options.camera.clone(), ..stage_options(&options.stage)? };
     // A stage that is read again and again may be edited meanwhile.
     stage_options.kept = options.frame_count.is_some() || options.frames.as_ref().is_some_and(|frames| frames.contains([',', ':']));
     stage_options.detached = stage_options.kept;
@@ -93,13 +95,15 @@ impl Sequence<'_> {
             say(&format!("{} shapes are as in the frame before", loaded.kept_shapes));
         }
         let time = frame.unwrap_or(0.0) / stage.info().time_codes_per_second;
-        let of_frame = |path: &PathBuf| frame.map_or_else(|| path.clone(), |f| file_name::for_frame(path, f));
-        let checkpoint = options.checkpoint.checkpoint.as_ref().map(of_frame);
-        let deep = options.files.deep.as_ref().map(of_frame);
+        let named = file_name::named_frame(frame, stage.info().time_range, options.default_time);
+        let of_frame = |path: &PathBuf| file_name::filled_in(path, named);
+        let checkpoint = options.checkpoint.checkpoint.as_ref().map(of_frame).transpose()?;
+        let deep = options.files.deep.as_ref().map(of_frame).transpose()?;
         let pictures = if options.files.output.is_empty() && checkpoint.is_none() && deep.is_none() {
-            self.products.pictures(&loaded, frame)?
+            self.products.pictures(&loaded, named)?
         } else {
-            vec![Picture::of_all_products(&loaded, options.files.output.iter().map(of_frame), deep)]
+            let paths: Vec<PathBuf> = options.files.output.iter().map(of_frame).collect::<Result<_>>()?;
+            vec![Picture::of_all_products(&loaded, paths.into_iter(), deep)]
         };
         let count = pictures.len();
         let mut loaded = Some(loaded);
@@ -142,7 +146,7 @@ pub(super) fn frames_of(options: &RenderOptions, first: Option<f64>) -> Result<V
         .map(|path| ("output", path))
         .chain(options.files.deep.iter().map(|path| ("deep", path)))
         .chain(options.checkpoint.checkpoint.iter().map(|path| ("checkpoint", path)));
-    if let (true, Some((name, path))) = (frames.len() > 1, files.find(|(_, path)| !file_name::has_frame(path))) {
+    if let (true, Some((name, path))) = (frames.len() > 1, files.find(|(_, path)| !has_frame(path))) {
         return Err(Error::Setting {
             name: name.into(),
             problem: format!("{}: several frames need a place for the frame number, such as '####' or '$F4'", path.display()),
@@ -185,6 +189,7 @@ pub(super) fn stage_options(arguments: &StageArguments) -> Result<StageOptions> 
         render_pass: arguments.render_pass.clone(),
         disable_motion_blur: arguments.disable_motion_blur,
         disable_draw_mode: arguments.disable_draw_mode,
+        hide_lights: arguments.hide_lights,
         strict: arguments.strict,
         lenient: arguments.lenient,
         ..StageOptions::default()

@@ -33,7 +33,7 @@ pub fn view_scene(py: Python<'_>, words: &[String], folder: &Path, frame: Option
     };
     options.inputs().for_each(|path| *path = folder.join(&*path));
     let time = frame.or(options.frame).map_or(SampleTime::Start, SampleTime::Code);
-    let stage_options = StageOptions { time, ..stage_options(&options.stage)? };
+    let stage_options = StageOptions { time, camera: options.camera.clone(), ..stage_options(&options.stage)? };
     let mut loaded = load_stage(py, &options.stage.stage, &stage_options, &INTERRUPTED)?;
     daylight::add(&options.daylight, &mut loaded, options.stage.strict, true)?;
     // The window cuts no part out of the view and has passes of its own.

@@ -35,7 +35,12 @@ pub(super) fn open_prepared<'py>(
     add().map_err(unreadable)?;
     let stage = open_layers(py, path, options, &session)?;
     select_variants(&stage, options)?;
+    expand_mask(&stage, options).map_err(unreadable)?;
     let documents = material::substitute_documents(&stage, diagnostics);
+    if documents.is_some() {
+        // What documents hold was not there before.
+        expand_mask(&stage, options).map_err(unreadable)?;
+    }
     let skeleton::Apart { apart, alike } = skeleton::take_instances_apart(&stage).map_err(unreadable)?;
     if let Some(first) = apart.first() {
         let shown = alike.iter().filter(|(instance, shown)| instance != shown).count();
@@ -101,6 +106,22 @@ fn population_mask<'py>(py: Python<'py>, options: &StageOptions) -> Result<Optio
     }
     let mask = || Module::Usd.item(py, "StagePopulationMask")?.call1((PyList::new(py, &options.population_mask)?,));
     mask().map(Some).map_err(|error| failed(pxr::message_of(py, &error)))
+}
+
+/// Takes into a mask what its prims refer to, as usdrecord does: bound materials, prototypes, what lights are linked to; and what is looked
+/// through and followed.
+fn expand_mask(stage: &Bound<'_, PyAny>, options: &StageOptions) -> PyResult<()> {
+    if options.population_mask.is_empty() {
+        return Ok(());
+    }
+    let stated: String = stage.call_method1("GetMetadata", ("renderSettingsPrimPath",))?.extract().unwrap_or_default();
+    let named = [&options.camera, &options.render_settings, &options.render_pass].into_iter().flatten().cloned();
+    let mask = stage.call_method0("GetPopulationMask")?;
+    for path in named.chain([stated]).filter(|path| path.starts_with('/')) {
+        mask.call_method1("Add", (path,))?;
+    }
+    stage.call_method1("SetPopulationMask", (mask,))?;
+    stage.call_method0("ExpandPopulationMask").map(|_| ())
 }
 
 fn select_variants(stage: &Bound<'_, PyAny>, options: &StageOptions) -> Result<()> {

@@ -14,7 +14,7 @@ pub(crate) struct StageArguments {
     /// How finely subdivision surfaces are refined.
     #[arg(long, short = 'C', value_enum, default_value_t = ComplexityArgument::High)]
     pub(crate) complexity: ComplexityArgument,
-    /// Read only these prims (and what they need), separated by commas.
+    /// Read only these prims, separated by commas, and what they refer to: bound materials, prototypes, prims that lights are linked to.
     #[arg(long, value_name = "PRIMPATHS", value_delimiter = ',')]
     pub(crate) mask: Vec<String>,
     /// Choose a variant: '/Prim{set=variant}'; may be given several times.
@@ -35,6 +35,9 @@ pub(crate) struct StageArguments {
     /// Models are shown themselves, not the cards, boxes and axes that stand for them.
     #[arg(long = "disable-draw-mode", alias = "disableDrawMode")]
     pub(crate) disable_draw_mode: bool,
+    /// The camera does not see the shapes of lamps (suns and domes stay): they light, and stand in mirrors, as ever.
+    #[arg(long = "hide-lights")]
+    pub(crate) hide_lights: bool,
     /// Go on where a light's IES or EULUMDAT file is missing or cannot be read, with a warning: by its quantity's even light, else dark.
     #[arg(long, conflicts_with = "strict")]
     pub(crate) lenient: bool,
