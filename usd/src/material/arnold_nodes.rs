@@ -1,9 +1,10 @@
 //! Arnold's shaders as they stand in USD, `arnold:image`: images, normal maps, arithmetic and primvars.
 
 use super::arnold_math;
-use super::emit::{binary, mix, scalar};
+use super::emit::{binary, combine, component, mix, scalar};
 use super::network::{Network, Shader};
-use gonio::scene::{Input, Operation, TextureFilter, WrapMode};
+use super::varying::{Image, bent, placed, primvar};
+use gonio::scene::{Input, Operation, WrapMode};
 
 /// The component that an output stands for: `r`, or `out:r`.
 pub(in crate::material) fn output_component(id: &str, output: &str) -> Option<usize> {
@@ -23,9 +24,9 @@ pub(in crate::material) fn build(network: &mut Network<'_>, shader: &Shader, nod
             return Some(mix(&mut network.graph, a, b, share));
         }
         "user_data_rgb" | "user_data_rgba" | "user_data_float" | "user_data_int" => {
-            let fallback = network.uniform(shader, "default", [0.0, 0.0, 0.0, 1.0]);
+            let fallback = network.input(shader, "default").unwrap_or(Input::Constant([0.0, 0.0, 0.0, 1.0]));
             let name = network.text(shader, "attribute").filter(|name| !name.is_empty())?;
-            return Some(network.node(Operation::Primvar { name, fallback }, vec![]));
+            return Some(primvar(&mut network.graph, name, fallback));
         }
         "add" => (Operation::Add, 0.0),
         "subtract" => (Operation::Subtract, 0.0),
@@ -38,9 +39,9 @@ pub(in crate::material) fn build(network: &mut Network<'_>, shader: &Shader, nod
 }
 
 fn image(network: &mut Network<'_>, shader: &Shader) -> Input {
-    let fallback = network.uniform(shader, "missing_texture_color", [0.0, 0.0, 0.0, 1.0]);
+    let fallback = network.input(shader, "missing_texture_color").unwrap_or(Input::Constant([0.0, 0.0, 0.0, 1.0]));
     let space = network.text(shader, "color_space").filter(|space| !space.is_empty());
-    let Some(texture) = network.texture_of(shader, "filename", space.as_deref(), "auto") else { return Input::Constant(fallback) };
+    let Some(texture) = network.texture_of(shader, "filename", space.as_deref(), "auto") else { return fallback };
     let wrap = ["swrap", "twrap"].map(|name| match network.text(shader, name).as_deref() {
         Some("clamp") => WrapMode::Clamp,
         Some("mirror") => WrapMode::Mirror,
@@ -48,19 +49,25 @@ fn image(network: &mut Network<'_>, shader: &Shader) -> Input {
         _ => WrapMode::Repeat,
     });
     let set = network.text(shader, "uvset").filter(|set| !set.is_empty()).unwrap_or_else(|| "st".to_owned());
-    let mut place = |names: [&str; 2], default: f32| names.map(|name| network.number(shader, name, default));
+    let mut place = |names: [&str; 2], default: f32| {
+        let parts = names.map(|name| network.scalar(shader, name, default));
+        combine(&mut network.graph, &parts)
+    };
     let (scale, translation) = (place(["sscale", "tscale"], 1.0), place(["soffset", "toffset"], 0.0));
     let mut coordinates = match network.input(shader, "uvcoords") {
         Some(coordinates @ Input::Node(..)) => coordinates,
         _ => network.node(Operation::Primvar { name: set, fallback: [0.0; 4] }, vec![]),
     };
-    if (scale, translation) != ([1.0; 2], [0.0; 2]) {
-        coordinates = network.node(Operation::Transform2d { scale, rotation_deg: 0.0, translation }, vec![coordinates]);
+    let is_as_it_lies = matches!((scale, translation), (Input::Constant([1.0, 1.0, ..]), Input::Constant([0.0, 0.0, ..])));
+    if !is_as_it_lies {
+        coordinates = placed(&mut network.graph, coordinates, scale, scalar(0.0), translation);
     }
-    let [r, g, b, _] = network.uniform(shader, "multiply", [1.0; 4]);
-    let [x, y, z, _] = network.uniform(shader, "offset", [0.0; 4]);
-    let (scale, bias) = ([r, g, b, 1.0], [x, y, z, 0.0]);
-    network.node(Operation::Image { texture, wrap, filter: TextureFilter::Linear, scale, bias, fallback }, vec![coordinates])
+    let [scale, bias] = [("multiply", 1.0, 1.0), ("offset", 0.0, 0.0)].map(|(name, default, alpha)| {
+        let tint = network.colour(shader, name, [default; 3]);
+        let parts = [component(tint, 0), component(tint, 1), component(tint, 2), scalar(alpha)];
+        combine(&mut network.graph, &parts)
+    });
+    Image { scale, bias, ..Image::plain(texture, wrap, fallback) }.at(&mut network.graph, coordinates)
 }
 
 fn normal_map(network: &mut Network<'_>, shader: &Shader) -> Option<Input> {
@@ -69,6 +76,6 @@ fn normal_map(network: &mut Network<'_>, shader: &Shader) -> Option<Input> {
         let doubled = binary(&mut network.graph, Operation::Multiply, input, scalar(2.0));
         input = binary(&mut network.graph, Operation::Subtract, doubled, scalar(1.0));
     }
-    let scale = network.number(shader, "strength", 1.0);
-    Some(network.node(Operation::NormalMap { scale, uv: None }, vec![input]))
+    let strength = network.scalar(shader, "strength", 1.0);
+    Some(bent(&mut network.graph, input, strength))
 }

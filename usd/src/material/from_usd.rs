@@ -1,13 +1,15 @@
 //! Shading networks of UsdShade as neutral documents: what a surface reads, followed through the interfaces of node graphs and materials.
 
 use super::neutral::{Document, NodeIndex, Port, Said, Source, Value};
-use super::textures::{resolve_text, resolve_tiles};
+use super::textures::{resolve_of_frame, resolve_text, resolve_tiles};
 use super::value::{is_colour, stated_colour_space};
 use crate::prim::{Attribute, Prim};
 use crate::pxr::{self, Module};
 use pyo3::{intern, prelude::*};
 use std::collections::HashMap;
 
+/// Most interfaces of graphs that a connection is followed through.
+const MAX_INTERFACES: usize = 64;
 /// Most shaders of a network that are read.
 const MAX_SHADERS: usize = 60_000;
 
@@ -59,11 +61,19 @@ impl<'py> Reader<'_, 'py> {
         }
         let input = Module::UsdShade.wrap("Input", attribute.object())?;
         let producers = input.call_method0(intern!(py, "GetValueProducingAttributes"))?;
-        let Some(producer) = producers.try_iter()?.next() else {
-            let source = undeclared_source(attribute.object())?;
-            return Ok(source.map_or(Source::Nothing, |(prim, output)| self.output(prim, output)));
+        let producer = producers.try_iter()?.next().transpose()?;
+        // Where a connection leads nowhere, the input's own value is what is left.
+        let own = producer.as_ref().map_or(Ok(true), |producer| producer.eq(attribute.object()))?;
+        let Some(producer) = producer.filter(|_| !own) else {
+            if let Some((prim, output)) = undeclared_source(attribute.object())? {
+                return Ok(self.output(prim, output));
+            }
+            if let Some(path) = dangling(attribute.object())? {
+                let message = format!("input '{name}' is connected to <{path}>, which is not there; its own value or default is used");
+                self.document.problems.push((shader.path(), message));
+            }
+            return self.value(name, &attribute);
         };
-        let producer = producer?;
         let full_name: String = producer.call_method0(intern!(py, "GetName"))?.extract()?;
         let Some(output) = full_name.strip_prefix("outputs:") else {
             return self.value(name, &Attribute::new(producer));
@@ -92,6 +102,9 @@ impl<'py> Reader<'_, 'py> {
                 if path.resolved.is_empty() {
                     path.resolved = resolve_tiles(attribute, &path.authored);
                 }
+                if path.resolved.is_empty() {
+                    path.resolved = resolve_of_frame(attribute, &path.authored, self.time);
+                }
             }
             Value::Text(text) if names_file(name) => {
                 said.space = stated_colour_space(attribute);
@@ -119,6 +132,28 @@ pub(in crate::material) fn undeclared_source<'py>(attribute: &Bound<'py, PyAny>)
         match name.strip_prefix("outputs:") {
             Some(output) if prim.is_valid() && prim.type_name() == "Shader" => return Ok(Some((prim, output.to_owned()))),
             _ => {}
+        }
+    }
+    Ok(None)
+}
+
+/// Where a connection leads that ends at nothing, followed through the interfaces of graphs and materials.
+pub(in crate::material) fn dangling(attribute: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
+    let py = attribute.py();
+    let mut attribute = attribute.clone();
+    for _ in 0..MAX_INTERFACES {
+        let found = Module::UsdShade.item(py, "ConnectableAPI")?.call_method1(intern!(py, "GetConnectedSources"), (&attribute,))?;
+        if let Some(path) = found.get_item(1)?.try_iter()?.next() {
+            return path?.str()?.extract().map(Some);
+        }
+        let Some(source) = found.get_item(0)?.try_iter()?.next().transpose()? else { return Ok(None) };
+        let name: String = source.getattr(intern!(py, "sourceName"))?.extract()?;
+        let graph = source.getattr(intern!(py, "source"))?;
+        let input = graph.call_method1(intern!(py, "GetInput"), (&name,))?;
+        let port = if input.is_truthy()? { input } else { graph.call_method1(intern!(py, "GetOutput"), (&name,))? };
+        attribute = port.call_method0(intern!(py, "GetAttr"))?;
+        if !attribute.is_truthy()? {
+            return Ok(None);
         }
     }
     Ok(None)

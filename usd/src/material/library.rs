@@ -2,7 +2,7 @@
 //! package, or what a document defines for itself.
 
 use super::definition::{Body, BodyNode, BodySource, Definition};
-use super::mtlx::{Stated, value_of};
+use super::mtlx::{Stated, is_data, token_port, tokens, value_of};
 use super::neutral::Source;
 use super::xml::{self, Element};
 use std::collections::HashMap;
@@ -14,7 +14,7 @@ const MAX_BYTES: u64 = 16 << 20;
 /// Deepest folder of a library.
 const MAX_FOLDERS: usize = 4;
 /// The beginnings of folders of a library that hold code of shading languages alone.
-const SKIPPED: [&str; 3] = ["gen", "targets", "translation"];
+const SKIPPED: [&str; 2] = ["gen", "targets"];
 
 /// Definitions by name.
 #[derive(Debug, Default)]
@@ -29,32 +29,33 @@ impl Library {
     pub(in crate::material) fn read(folders: &[PathBuf]) -> Option<Self> {
         let mut documents = Vec::new();
         folders.iter().for_each(|folder| collect(folder, 0, &mut documents));
-        let library = Self::of(&documents.iter().collect::<Vec<_>>());
+        let places = documents.iter().map(|(document, folder)| Stated { document, graph: None, folder });
+        let library = Self::of(&places.collect::<Vec<_>>());
         (!library.definitions.is_empty()).then_some(library)
     }
 
-    /// What documents define.
-    pub(in crate::material) fn of(documents: &[&Element]) -> Self {
+    /// What documents define, each with the folder that it lies in.
+    pub(in crate::material) fn of(documents: &[Stated<'_>]) -> Self {
         let mut library = Self::default();
-        let elements = || documents.iter().flat_map(|document| document.children.iter().map(move |child| (*document, child)));
-        for (document, element) in elements().filter(|(_, element)| element.name == "nodedef") {
-            if let Some(definition) = definition(document, element) {
+        let elements = || documents.iter().flat_map(|stated| stated.document.children.iter().map(move |child| (*stated, child)));
+        for (stated, element) in elements().filter(|(_, element)| element.name == "nodedef") {
+            if let Some(definition) = definition(&stated, element) {
                 library.categories.entry(definition.category.clone()).or_default().push(definition.name.clone());
                 library.definitions.insert(definition.name.clone(), Arc::new(definition));
             }
         }
         // A graph names its definition, or an implementation names both.
-        let graphs: HashMap<&str, (&Element, &Element)> = elements()
+        let graphs: HashMap<&str, (Stated<'_>, &Element)> = elements()
             .filter(|(_, element)| element.name == "nodegraph")
-            .filter_map(|(document, element)| Some((element.attribute("name")?, (document, element))))
+            .filter_map(|(stated, element)| Some((element.attribute("name")?, (stated, element))))
             .collect();
-        let own = graphs.values().filter_map(|(document, graph)| Some((graph.attribute("nodedef")?, *document, *graph)));
+        let own = graphs.values().filter_map(|(stated, graph)| Some((graph.attribute("nodedef")?, *stated, *graph)));
         let named = elements().filter(|(_, element)| element.name == "implementation").filter_map(|(_, element)| {
-            let (document, graph) = graphs.get(element.attribute("nodegraph")?)?;
-            Some((element.attribute("nodedef")?, *document, *graph))
+            let (stated, graph) = graphs.get(element.attribute("nodegraph")?)?;
+            Some((element.attribute("nodedef")?, *stated, *graph))
         });
         let bodies: Vec<(String, Body)> =
-            own.chain(named).map(|(name, document, graph)| (name.to_owned(), library.body(document, graph))).collect();
+            own.chain(named).map(|(name, stated, graph)| (name.to_owned(), library.body(&stated, graph))).collect();
         for (name, body) in bodies {
             if let Some(definition) = library.definitions.get_mut(&name).and_then(Arc::get_mut) {
                 definition.body = Some(body);
@@ -87,15 +88,17 @@ impl Library {
         fitting.iter().find(|definition| agrees(definition)).or(fitting.first()).map(|definition| definition.name.clone())
     }
 
-    fn body(&self, document: &Element, graph: &Element) -> Body {
-        let stated = Stated { document, graph: Some(graph), folder: "" };
+    fn body(&self, stated: &Stated<'_>, graph: &Element) -> Body {
+        let stated = Stated { graph: Some(graph), ..*stated };
         let elements = graph.children.iter().filter(|child| child.name != "input" && child.name != "output");
         let elements: Vec<&Element> = elements.filter(|child| child.attribute("name").is_some()).collect();
         let places: HashMap<&str, usize> =
             elements.iter().enumerate().filter_map(|(index, element)| Some((element.attribute("name")?, index))).collect();
         let source = |input: &Element, node: &Element| -> Option<BodySource> {
             if let Some(name) = input.attribute("interfacename") {
-                return Some(BodySource::Interface(name.to_owned()));
+                let shared = stated.document_input(name).and_then(|shared| value_of(shared, node, &Stated { graph: None, ..stated }));
+                let shared = shared.map_or(Source::Nothing, |(value, said)| Source::Value(value, said));
+                return Some(BodySource::Interface(name.to_owned(), shared));
             }
             if let Some(name) = input.attribute("nodename") {
                 return Some(BodySource::Node(*places.get(name)?, input.attribute("output").unwrap_or("out").to_owned()));
@@ -111,6 +114,8 @@ impl Library {
             BodyNode {
                 name: element.attribute("name").unwrap_or_default().to_owned(),
                 id: self.name_of(element).unwrap_or_else(|| plain_id(element)),
+                is_data: element.attribute("type").is_some_and(is_data),
+                tokens: tokens(element).map(|(token, value)| token_port(token, value)).collect(),
                 inputs: inputs.filter_map(|input| Some((input.attribute("name")?.to_owned(), source(input, element)?))).collect(),
             }
         });
@@ -168,24 +173,24 @@ pub(in crate::material) fn plain_id(node: &Element) -> String {
     }
 }
 
-fn definition(document: &Element, element: &Element) -> Option<Definition> {
-    let stated = Stated { document, graph: None, folder: "" };
+fn definition(stated: &Stated<'_>, element: &Element) -> Option<Definition> {
     let (name, category) = (element.attribute("name")?.to_owned(), element.attribute("node")?.to_owned());
     let inputs = element.children.iter().filter(|child| child.name == "input").filter_map(|input| {
         let source = match input.attribute("defaultgeomprop") {
             Some(name) => Source::Geometric(name.to_owned()),
-            None => value_of(input, element, &stated).map_or(Source::Nothing, |(value, said)| Source::Value(value, said)),
+            None => value_of(input, element, stated).map_or(Source::Nothing, |(value, said)| Source::Value(value, said)),
         };
         let kind = input.attribute("type").unwrap_or_default().to_owned();
         Some(super::definition::DefinedInput { name: input.attribute("name")?.to_owned(), kind, source })
     });
     let outputs = element.children.iter().filter(|child| child.name == "output");
     let outputs = outputs.filter_map(|output| Some((output.attribute("name")?.to_owned(), output.attribute("type")?.to_owned())));
-    Some(Definition { name, category, inputs: inputs.collect(), outputs: outputs.collect(), body: None })
+    let tokens = tokens(element).map(|(token, value)| (token.to_owned(), value.to_owned())).collect();
+    Some(Definition { name, category, inputs: inputs.collect(), tokens, outputs: outputs.collect(), body: None })
 }
 
-/// The documents in a folder and those inside it.
-fn collect(folder: &Path, depth: usize, documents: &mut Vec<Element>) {
+/// The documents in a folder and those inside it, each with the folder that it lies in.
+fn collect(folder: &Path, depth: usize, documents: &mut Vec<(Element, String)>) {
     let Ok(entries) = std::fs::read_dir(folder) else { return };
     let mut paths: Vec<_> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
     paths.sort();
@@ -199,6 +204,6 @@ fn collect(folder: &Path, depth: usize, documents: &mut Vec<Element>) {
         }
         let is_sound = name.ends_with(".mtlx") && path.metadata().is_ok_and(|data| data.len() <= MAX_BYTES);
         let text = if is_sound { std::fs::read_to_string(&path).ok() } else { None };
-        documents.extend(text.and_then(|text| xml::parse(&text).ok()));
+        documents.extend(text.and_then(|text| Some((xml::parse(&text).ok()?, folder.to_string_lossy().into_owned()))));
     }
 }

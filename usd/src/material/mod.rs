@@ -27,6 +27,7 @@ mod tests;
 mod textures;
 mod usd_nodes;
 mod value;
+mod varying;
 mod xml;
 
 pub use binding::{bound, bound_all};
@@ -56,7 +57,10 @@ fn is_preview_surface(id: &str) -> bool {
 
 fn convert<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, path: &str) -> Option<Material> {
     let origin = Origin::new(path);
-    let surfaces = context.attempt(&origin, "the material's surface cannot be found", surfaces(prim))?;
+    let (surfaces, dangling) = context.attempt(&origin, "the material's surface cannot be found", surfaces(prim))?;
+    for path in dangling {
+        context.warn(&origin, format!("its surface is connected to <{path}>, which is not there"));
+    }
     let mut unknown = Vec::new();
     for (render_context, surface) in surfaces {
         let document = from_usd::read(surface, &context.time);
@@ -79,11 +83,14 @@ fn convert<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, path: &str) ->
     None
 }
 
+/// Surface shader prims with their render contexts, and where connections lead that end at nothing.
+type Surfaces<'py> = (Vec<(String, Prim<'py>)>, Vec<String>);
+
 /// The surface shader prims of a material with their render contexts, the preferred one's first.
-fn surfaces<'py>(prim: &Prim<'py>) -> PyResult<Vec<(String, Prim<'py>)>> {
+fn surfaces<'py>(prim: &Prim<'py>) -> PyResult<Surfaces<'py>> {
     let py = prim.py();
     let material = Module::UsdShade.wrap("Material", prim.object())?;
-    let mut surfaces = Vec::new();
+    let (mut surfaces, mut dangling) = (Vec::new(), Vec::new());
     for render_context in render_contexts(prim) {
         if !prim.has_authored(&output_name(&render_context, "surface")) {
             continue;
@@ -98,11 +105,16 @@ fn surfaces<'py>(prim: &Prim<'py>) -> PyResult<Vec<(String, Prim<'py>)>> {
             let shader = source.get_item(0)?;
             if shader.is_truthy()? { Some(Prim::new(shader.call_method0(intern!(py, "GetPrim"))?)) } else { None }
         } else {
-            from_usd::undeclared_source(&output.call_method0(intern!(py, "GetAttr"))?)?.map(|(prim, _)| prim)
+            let attribute = output.call_method0(intern!(py, "GetAttr"))?;
+            let undeclared = from_usd::undeclared_source(&attribute)?.map(|(prim, _)| prim);
+            if undeclared.is_none() {
+                dangling.extend(from_usd::dangling(&attribute)?);
+            }
+            undeclared
         };
         surfaces.extend(shader.map(|shader| (render_context, shader)));
     }
-    Ok(surfaces)
+    Ok((surfaces, dangling))
 }
 
 /// The property that is a material's output of a kind in a render context.

@@ -1,7 +1,7 @@
 //! MaterialX documents as neutral ones: values, colour spaces, units and files as the format states them.
 
 use super::library::{Library, plain_id};
-use super::neutral::{Document, NodeIndex, Port, Said, Source, Value};
+use super::neutral::{Document, NodeIndex, Port, RAW, Said, Source, Value};
 use super::value::UNIT_MATRIX;
 use super::xml::Element;
 use crate::vt::AssetPath;
@@ -19,7 +19,7 @@ pub(in crate::material) struct Stated<'d> {
     pub(in crate::material) folder: &'d str,
 }
 
-impl Stated<'_> {
+impl<'d> Stated<'d> {
     /// The space said for an input, or for colours the one that holds around it.
     pub(in crate::material) fn colour_space(&self, input: &Element, node: &Element, is_colour: bool) -> String {
         let inherited = || {
@@ -27,6 +27,17 @@ impl Stated<'_> {
             scopes.into_iter().flatten().find_map(|scope| scope.attribute("colorspace")).filter(|_| is_colour)
         };
         input.attribute("colorspace").or_else(inherited).unwrap_or_default().to_owned()
+    }
+
+    /// The document's own input of a name.
+    pub(in crate::material) fn document_input(&self, name: &str) -> Option<&'d Element> {
+        self.document.children.iter().find(|child| child.name == "input" && child.attribute("name") == Some(name))
+    }
+
+    /// A file's name with what tokens of the node, its graph and the document stand for: `[name]`.
+    fn without_tokens(&self, name: &str, node: &Element) -> String {
+        let scopes = [Some(node), self.graph, Some(self.document)].into_iter().flatten();
+        scopes.flat_map(tokens).fold(name.to_owned(), |name, (token, value)| name.replace(&format!("[{token}]"), value))
     }
 
     /// Where a file lies: beside the document, under the prefix that holds unless it is there without.
@@ -41,6 +52,22 @@ impl Stated<'_> {
         };
         path.to_string_lossy().into_owned()
     }
+}
+
+/// Names and values of what stands in brackets in names of files below an element.
+pub(in crate::material) fn tokens(element: &Element) -> impl Iterator<Item = (&str, &str)> {
+    let tokens = element.children.iter().filter(|child| child.name == "token");
+    tokens.filter_map(|token| Some((token.attribute("name")?, token.attribute("value").unwrap_or_default())))
+}
+
+/// The port of a node on which a token of its definition is set.
+pub(in crate::material) fn token_port(token: &str, value: &str) -> Port {
+    Port { name: format!("token:{token}"), source: Source::Value(Value::Text(value.to_owned()), Said::default()) }
+}
+
+/// Whether a type is that of numbers that are no colours.
+pub(in crate::material) fn is_data(kind: &str) -> bool {
+    components(kind).is_some() && !kind.starts_with("color")
 }
 
 /// Components of a type of numbers; `None` for other types.
@@ -71,10 +98,15 @@ pub(in crate::material) fn value_of(input: &Element, node: &Element, stated: &St
     let value = match (kind, components(kind)) {
         ("string", _) => Value::Text(text.to_owned()),
         ("filename", _) => {
-            let is_colour = node.attribute("type").is_some_and(|kind| kind.starts_with("color"));
-            said.space = stated.colour_space(input, node, is_colour);
-            let place = stated.file(text);
-            Value::Asset(AssetPath { authored: text.to_owned(), resolved: place })
+            // Definitions and nodes of several outputs hand names on to what reads them.
+            said.space = stated.colour_space(input, node, node.attribute("type").is_none_or(|kind| !is_data(kind)));
+            if said.space.is_empty() {
+                // Where a document names no space, nothing is converted.
+                said.space = RAW.to_owned();
+            }
+            let name = stated.without_tokens(text, node);
+            let place = stated.file(&name);
+            Value::Asset(AssetPath { authored: name, resolved: place })
         }
         ("boolean", _) => Value::Numbers([f32::from(u8::from(text == "true")); 4], 1),
         (_, Some(count)) => {
@@ -107,20 +139,24 @@ fn number_value(numbers: &[f32]) -> Value {
     Value::Matrix(Box::new(rows), side)
 }
 
+/// What reads something that the document does not have.
+fn missing(what: &str, name: &str) -> Source {
+    Source::Unreadable(format!("it reads the {what} '{name}', which is not there"))
+}
+
 /// The network that an input of a node reads, whose end is the first node of the result, and the output of it that is read; `None` where
 /// the input reads no node.
 pub(in crate::material) fn read(stated: Stated<'_>, node: &Element, input: &str, libraries: &[&Library]) -> Option<(Document, String)> {
     let mut reader = Reader { document: Document::default(), known: HashMap::new(), waiting: Vec::new(), libraries };
     let Source::Output(_, output) = reader.source(node.child_called(input)?, Place { node, stated }, 0) else { return None };
-    while let Some((index, place)) = reader.waiting.pop() {
-        for input in place.node.children.iter().filter(|child| child.name == "input") {
-            let source = reader.source(input, place, 0);
-            if let (Some(name), true) = (input.attribute("name"), source != Source::Nothing) {
-                reader.document.nodes[index.0].inputs.push(Port { name: name.to_owned(), source });
-            }
-        }
-    }
-    Some((reader.document, output))
+    Some((reader.finished(), output))
+}
+
+/// The network that ends in a node, which is the first of the result.
+pub(in crate::material) fn read_to(stated: Stated<'_>, node: &Element, libraries: &[&Library]) -> Document {
+    let mut reader = Reader { document: Document::default(), known: HashMap::new(), waiting: Vec::new(), libraries };
+    reader.node(Place { node, stated });
+    reader.finished()
 }
 
 /// A node and what holds around it.
@@ -138,6 +174,20 @@ struct Reader<'d, 'l> {
 }
 
 impl<'d> Reader<'d, '_> {
+    /// The document with the inputs of all nodes that were met.
+    fn finished(mut self) -> Document {
+        while let Some((index, place)) = self.waiting.pop() {
+            self.document.nodes[index.0].inputs.extend(tokens(place.node).map(|(token, value)| token_port(token, value)));
+            for input in place.node.children.iter().filter(|child| child.name == "input") {
+                let source = self.source(input, place, 0);
+                if let (Some(name), true) = (input.attribute("name"), source != Source::Nothing) {
+                    self.document.nodes[index.0].inputs.push(Port { name: name.to_owned(), source });
+                }
+            }
+        }
+        self.document
+    }
+
     fn node(&mut self, place: Place<'d>) -> NodeIndex {
         let key = std::ptr::from_ref(place.node);
         if let Some(known) = self.known.get(&key) {
@@ -159,9 +209,12 @@ impl<'d> Reader<'d, '_> {
         }
         let outside = Stated { graph: None, ..stated };
         if let Some(name) = input.attribute("interfacename") {
-            let interface = stated.graph.and_then(|graph| graph.child_called(name));
-            // The graph's own input belongs to the document.
-            return interface.map_or(Source::Nothing, |interface| self.source(interface, Place { stated: outside, ..place }, steps + 1));
+            let own = stated.graph.and_then(|graph| graph.child_called(name)).filter(|child| child.name == "input");
+            // The graph's own input belongs to the document, which may have inputs that all read.
+            return match own.or_else(|| stated.document_input(name)) {
+                Some(interface) => self.source(interface, Place { stated: outside, ..place }, steps + 1),
+                None => missing("input", name),
+            };
         }
         let scope = stated.graph.unwrap_or(stated.document);
         let named = input.attribute("nodegraph").and_then(|name| stated.document.child_called(name));
@@ -174,7 +227,10 @@ impl<'d> Reader<'d, '_> {
                     None => outputs.next(),
                 };
                 let inside = Place { node: graph, stated: Stated { graph: Some(graph), ..stated } };
-                output.map_or(Source::Nothing, |output| self.source(output, inside, steps + 1))
+                match output {
+                    Some(output) => self.source(output, inside, steps + 1),
+                    None => missing("output", input.attribute("output").unwrap_or_default()),
+                }
             }
             Some(node) => {
                 let index = self.node(Place { node, stated });
@@ -184,7 +240,10 @@ impl<'d> Reader<'d, '_> {
                 (_, Some((value, said))) => Source::Value(value, said),
                 (Some(name), None) => Source::Geometric(name.to_owned()),
                 (None, None) if input.attribute("value").is_some() => Source::Unreadable("its value is not usable".to_owned()),
-                (None, None) => Source::Nothing,
+                (None, None) => {
+                    let read = input.attribute("nodegraph").or(input.attribute("nodename"));
+                    read.map_or(Source::Nothing, |name| missing("node", name))
+                }
             },
         }
     }

@@ -14,6 +14,8 @@ use std::rc::Rc;
 const MAX_DEPTH: usize = 200;
 /// Most closures of a surface, those in mixes and layers counted.
 const MAX_CLOSURES: usize = 1000;
+/// The output that is read where a document names none.
+const UNSTATED_OUTPUT: &str = "out";
 /// Nodes in a graph beyond which shaders are not converted.
 const MAX_NODES: usize = 60_000;
 
@@ -53,7 +55,8 @@ pub(in crate::material) struct Network<'h> {
 
 impl<'h> Network<'h> {
     /// A network without graph nodes.
-    pub(in crate::material) fn new(host: &'h mut dyn Host, document: Document) -> Self {
+    pub(in crate::material) fn new(host: &'h mut dyn Host, mut document: Document) -> Self {
+        document.problems.drain(..).for_each(|(path, problem)| host.warn(&path, problem));
         Self {
             host,
             document,
@@ -99,6 +102,10 @@ impl<'h> Network<'h> {
     /// What a node's output gives; `None`, with a warning, where the node is not supported.
     pub(in crate::material) fn output(&mut self, node: NodeIndex, output: &str) -> Option<Input> {
         let shader = self.shader(node);
+        if !self.has_output(&shader, output) {
+            let message = format!("'{}' has no output '{output}', which something reads; its value is used as a whole", shader.id);
+            self.host.once("output", &format!("{} {output}", shader.path), &shader.path, message);
+        }
         // Most nodes have one value, whose parts outputs are.
         let is_materialx = shader.id.strip_prefix("ND_").is_some_and(|node| !usd_nodes::is_usd_node(node)) || self.is_defined(&shader);
         let is_each = is_materialx && materialx::row(&shader.id).is_none_or(|row| matches!(row.rule, Rule::Each(_) | Rule::Later));
@@ -114,6 +121,19 @@ impl<'h> Network<'h> {
         let index = usd_nodes::output_component(&shader.id, output).or_else(|| materialx::output_component(&shader.id, output));
         let index = index.or_else(|| arnold_nodes::output_component(&shader.id, output));
         Some(index.map_or(whole, |index| component(whole, index)))
+    }
+
+    /// Whether a node has an output of that name, as far as its definition is known.
+    fn has_output(&mut self, shader: &Shader, output: &str) -> bool {
+        if let Some(known) = usd_nodes::has_output(&shader.id, output) {
+            return known;
+        }
+        let definition = if shader.id.starts_with("arnold:") { None } else { self.host.definition(&shader.id) };
+        // Where a document names no output, it means the only one, which may have any name.
+        let is_stated = output != UNSTATED_OUTPUT;
+        definition.is_none_or(|definition| {
+            (!is_stated && definition.outputs.len() == 1) || definition.outputs.iter().any(|(name, _)| name == output)
+        })
     }
 
     fn build(&mut self, shader: &Shader, output: &str) -> Option<Input> {

@@ -26,6 +26,9 @@ impl Value {
     }
 }
 
+/// The colour space of numbers that are used as they stand.
+pub(in crate::material) const RAW: &str = "raw";
+
 /// What is said about a value beside it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(in crate::material) struct Said {
@@ -90,6 +93,8 @@ impl Node {
 pub(in crate::material) struct Document {
     /// The nodes, in no order.
     pub(in crate::material) nodes: Vec<Node>,
+    /// What is wrong with it, and the paths where.
+    pub(in crate::material) problems: Vec<(String, String)>,
 }
 
 impl Document {

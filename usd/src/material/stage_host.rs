@@ -5,7 +5,7 @@ use super::host::Host;
 use super::library::Library;
 use super::neutral::{Said, Value};
 use super::shaded::named_text;
-use super::textures::{resolve_text, resolve_tiles, texture_at};
+use super::textures::{LATEST, resolve_text, resolve_tiles, texture_at};
 use super::value::stated_colour_space;
 use crate::asset;
 use crate::context::Context;
@@ -15,9 +15,6 @@ use gonio_formats::bsdf;
 use pyo3::{intern, prelude::*, sync::PyOnceLock};
 use std::path::PathBuf;
 use std::sync::Arc;
-
-/// Time codes beyond this mean no time, as the earliest one does.
-const LATEST: f64 = 1e12;
 
 impl Host for Context<'_, '_> {
     fn warn(&mut self, path: &str, message: String) {

@@ -66,10 +66,10 @@ fn translated(body: &str, desk: &mut Desk) -> (Vec<Closure>, Graph) {
         <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial></materialx>"#
     );
     let document = xml::parse(&text).expect("well formed");
-    let library = Arc::new(Library::of(&[&document]));
+    let stated = Stated { document: &document, graph: None, folder: "/none" };
+    let library = Arc::new(Library::of(&[stated]));
     desk.libraries.insert(0, library);
     let libraries: Vec<&Library> = desk.libraries.iter().map(|library| &**library).collect();
-    let stated = Stated { document: &document, graph: None, folder: "/none" };
     let material = document.child_called("M").expect("a material");
     let (network, _) = mtlx::read(stated, material, "surfaceshader", &libraries).expect("a surface");
     let mut network = Network::new(desk, network);

@@ -4,6 +4,7 @@ use super::network::{Network, Shader};
 use super::neutral::{NodeIndex, Said, Source, Value};
 use crate::asset;
 use crate::context::Context;
+use crate::frame_name::{for_frame, has_frame};
 use crate::prim::Attribute;
 use crate::pxr::Module;
 use crate::vt::AssetPath;
@@ -12,6 +13,8 @@ use gonio::scene::{Input, Origin, Texture, TextureId, TextureSource, Tile};
 use pyo3::{intern, prelude::*};
 use std::{path::Path, sync::Arc};
 
+/// Time codes beyond this mean no time, as the earliest one does.
+pub(super) const LATEST: f64 = 1e12;
 /// What stands for the tile number in a file name.
 const UDIM: &str = "<UDIM>";
 /// The tiles that UsdShade's own search looks for.
@@ -52,6 +55,16 @@ pub(super) fn resolve_text(attribute: &Attribute<'_>, authored: &str) -> String 
         resolver.call_method1(intern!(py, "Resolve"), (anchored,))?.str()?.extract()
     };
     resolve().unwrap_or_default()
+}
+
+/// Where the file of a sequence lies for a time, 1 where that is none; empty where the name has no place for the frame, or there is no file.
+pub(super) fn resolve_of_frame(attribute: &Attribute<'_>, authored: &str, time: &Bound<'_, PyAny>) -> String {
+    if !has_frame(Path::new(authored)) {
+        return String::new();
+    }
+    let value = || time.call_method0(intern!(time.py(), "GetValue"))?.extract::<f64>();
+    let frame = value().ok().filter(|frame| frame.abs() < LATEST).unwrap_or(1.0);
+    resolve_text(attribute, &for_frame(Path::new(authored), frame).to_string_lossy())
 }
 
 /// The content of what a resolved path names.

@@ -3,7 +3,8 @@
 use super::emit::{binary, scalar};
 use super::network::{Network, Shader};
 use super::neutral::{Source, Value};
-use gonio::scene::{Input, Operation, TextureFilter, WrapMode};
+use super::varying::{Image, placed, primvar};
+use gonio::scene::{Input, Operation, WrapMode};
 
 /// Where images lie without wrapping when nothing is said: outside them there is nothing.
 const UNSTATED_WRAP: &str = "useMetadata";
@@ -21,6 +22,13 @@ pub(in crate::material) fn output_component(id: &str, output: &str) -> Option<us
         (node, output) if node.starts_with("UsdUVTexture") => ["r", "g", "b", "a"].iter().position(|name| *name == output),
         _ => None,
     }
+}
+
+/// Whether a node of the specification has an output; `None` for other nodes.
+pub(in crate::material) fn has_output(id: &str, output: &str) -> Option<bool> {
+    let node = id.strip_prefix("ND_").unwrap_or(id);
+    let outputs: &[&str] = if node.starts_with("UsdUVTexture") { &["r", "g", "b", "a", "rgb", "rgba"] } else { &["result", "out"] };
+    is_usd_node(node).then(|| outputs.contains(&output))
 }
 
 /// Builds a node of the specification; `is_materialx` says that MaterialX's defaults hold.
@@ -51,27 +59,24 @@ fn texture(network: &mut Network<'_>, shader: &Shader, is_materialx: bool) -> In
         let mode = network.text(shader, name).unwrap_or_else(|| unstated.to_owned());
         wrap_mode(network, shader, name, &mode)
     });
-    let fallback = network.uniform(shader, "fallback", [0.0, 0.0, 0.0, 1.0]);
-    let scale = network.uniform(shader, "scale", [1.0; 4]);
-    let bias = network.uniform(shader, "bias", [0.0; 4]);
+    let fallback = network.input(shader, "fallback").unwrap_or(Input::Constant([0.0, 0.0, 0.0, 1.0]));
+    let [scale, bias] = network.inputs(shader, [("scale", 1.0), ("bias", 0.0)]);
     let stated = network.text(shader, "sourceColorSpace").filter(|space| space != "auto");
     let Some(texture) = network.texture(shader, stated.as_deref(), "auto") else {
-        return Input::Constant(fallback);
+        return fallback;
     };
     let st = match network.input(shader, "st") {
         Some(input) => input,
         None if is_materialx => network.texture_coordinates(0),
         None => scalar(0.0),
     };
-    network.node(Operation::Image { texture, wrap, filter: TextureFilter::Linear, scale, bias, fallback }, vec![st])
+    Image { scale, bias, ..Image::plain(texture, wrap, fallback) }.at(&mut network.graph, st)
 }
 
 fn transform(network: &mut Network<'_>, shader: &Shader) -> Input {
-    let input = network.input(shader, "in").unwrap_or(scalar(0.0));
-    let [scale_x, scale_y, ..] = network.uniform(shader, "scale", [1.0; 4]);
-    let [x, y, ..] = network.uniform(shader, "translation", [0.0; 4]);
-    let rotation_deg = network.number(shader, "rotation", 0.0);
-    network.node(Operation::Transform2d { scale: [scale_x, scale_y], rotation_deg, translation: [x, y] }, vec![input])
+    let [input, scale] = network.inputs(shader, [("in", 0.0), ("scale", 1.0)]);
+    let [rotation, translation] = network.inputs(shader, [("rotation", 0.0), ("translation", 0.0)]);
+    placed(&mut network.graph, input, scale, rotation, translation)
 }
 
 fn primvar_reader(network: &mut Network<'_>, shader: &Shader, kind: &str) -> Option<Input> {
@@ -81,12 +86,12 @@ fn primvar_reader(network: &mut Network<'_>, shader: &Shader, kind: &str) -> Opt
     ) {
         return None;
     }
-    let fallback = network.uniform(shader, "fallback", [0.0; 4]);
+    let [fallback] = network.inputs(shader, [("fallback", 0.0)]);
     match network.text(shader, "varname").filter(|name| !name.is_empty()) {
-        Some(name) => Some(network.node(Operation::Primvar { name, fallback }, vec![])),
+        Some(name) => Some(primvar(&mut network.graph, name, fallback)),
         None => {
             network.warn(shader, "varname names no primvar; the reader's fallback is used");
-            Some(Input::Constant(fallback))
+            Some(fallback)
         }
     }
 }

@@ -115,9 +115,9 @@ const NAMES: &[(&str, ColourSpace)] = &[
     ),
     ("linrec2020 linrec2020scene linearrec2020 linearbt2020 utilitylinearrec2020", ColourSpace::LINEAR_REC2020),
     ("g22rec709 g22rec709scene g22rec709tx gamma22 gamma22rec709texture gamma22encodedrec709", ColourSpace::G22),
-    ("g18rec709 g18rec709scene gamma18rec709texture gamma18encodedrec709", colour(Transfer::Gamma18, Gamut::Rec709)),
+    ("g18rec709 g18rec709scene gamma18 gamma18rec709texture gamma18encodedrec709", colour(Transfer::Gamma18, Gamut::Rec709)),
     (
-        "rec709display g24rec709 g24rec709display rec1886 rec1886rec709display gamma24rec709texture gamma24encodedrec709",
+        "rec709display g24rec709 g24rec709display gamma24 rec1886 rec1886rec709display gamma24rec709texture gamma24encodedrec709",
         colour(Transfer::Gamma24, Gamut::Rec709),
     ),
     ("g22ap1 g22ap1scene gamma22ap1texture gamma22encodedap1", colour(Transfer::Gamma22, Gamut::Ap1)),

@@ -1,13 +1,17 @@
 //! A document's materials as the text of a USD layer.
 
 use super::include;
+use crate::material::definition::expand;
 use crate::material::library::Library;
 use crate::material::mtlx::{self, Stated};
-use crate::material::neutral::{Document, Node, Said, Source, Value};
+use crate::material::neutral::{Document, Node, NodeIndex, Said, Source, Value};
 use crate::material::xml::{self, Element};
 use std::collections::HashSet;
 use std::fmt::Write as _;
 use std::path::Path;
+
+/// How the names of the definitions of a material of a surface begin.
+const SURFACE_MATERIAL: &str = "ND_surfacematerial";
 
 /// A document as a layer.
 pub(super) struct Converted {
@@ -28,15 +32,18 @@ pub(super) fn convert(text: &str, file: &Path, standard: Option<&Library>) -> Re
     let mut problems = Vec::new();
     include::expand(&mut document, file, &mut problems);
     let folder = file.parent().unwrap_or(Path::new("")).to_string_lossy().into_owned();
-    let library = Library::of(&[&document]);
-    let libraries: Vec<&Library> = std::iter::once(&library).chain(standard).collect();
     let stated = Stated { document: &document, graph: None, folder: &folder };
+    let library = Library::of(&[stated]);
+    let libraries: Vec<&Library> = std::iter::once(&library).chain(standard).collect();
     let mut materials = String::new();
     for child in &document.children {
         match child.name.as_str() {
             "surfacematerial" => materials += &material(child, stated, &libraries, &mut problems),
             "material" => {
                 problems.push(format!("<{}> in MaterialX documents is not supported, it is left out", child.name));
+            }
+            _ if child.attribute("type") == Some("material") => {
+                materials += &defined_material(child, stated, &libraries, &mut problems);
             }
             _ => {}
         }
@@ -77,26 +84,67 @@ fn material(material: &Element, stated: Stated<'_>, libraries: &[&Library], prob
     };
     let root = format!("/MaterialX/Materials/{name}");
     let mut shaders: String = document.nodes.iter().map(|node| shader(&root, node, &document, problems)).collect();
-    let terminal = |kind: &str, document: &Document, output: &str| {
-        let (end, output) = (identifier(&document.nodes[0].path), identifier(output));
-        format!("token outputs:mtlx:{kind}.connect = <{root}/{end}.outputs:{output}>\n")
-    };
-    let mut terminals = terminal("surface", &document, &output);
+    let mut terminals = terminal(&root, "surface", &document.nodes[0], &output);
     if let Some((displacing, output)) = mtlx::read(stated, material, "displacementshader", libraries) {
         // Nodes that both read are there already.
         let known: HashSet<&str> = document.nodes.iter().map(|node| &*node.path).collect();
         let others = displacing.nodes.iter().filter(|node| !known.contains(&*node.path));
         shaders.extend(others.map(|node| shader(&root, node, &displacing, problems)));
-        terminals += &terminal("displacement", &displacing, &output);
+        terminals += &terminal(&root, "displacement", &displacing.nodes[0], &output);
     }
     format!("def Material \"{name}\"\n{{\n{terminals}{shaders}}}\n")
+}
+
+/// A material that is an instance of a definition: what the surface material inside that reads; empty, with a problem, where there is none.
+fn defined_material(element: &Element, stated: Stated<'_>, libraries: &[&Library], problems: &mut Vec<String>) -> String {
+    let name = identifier(element.attribute("name").unwrap_or("material"));
+    let root = format!("/MaterialX/Materials/{name}");
+    let mut document = mtlx::read_to(stated, element, libraries);
+    // Materials in one another, the innermost last.
+    let mut materials = vec![NodeIndex(0)];
+    let innermost = loop {
+        let index = materials[materials.len() - 1];
+        let id = document.node(index).id.clone();
+        if id.starts_with(SURFACE_MATERIAL) {
+            break index;
+        }
+        let definition = libraries.iter().find_map(|library| library.definition(&id)).filter(|definition| definition.body.is_some());
+        let outputs = definition.map_or(Ok(Vec::new()), |definition| expand(&mut document, index, &definition));
+        match outputs.as_deref() {
+            Ok([(_, Source::Output(inner, _)), ..]) if !materials.contains(inner) => materials.push(*inner),
+            Ok(_) => {
+                problems.push(format!("<{}> '{name}' is not supported, it is left out", element.name));
+                return String::new();
+            }
+            Err(problem) => {
+                problems.push(format!("the material '{name}' is left out: {problem}"));
+                return String::new();
+            }
+        }
+    };
+    let mut terminals = String::new();
+    for (input, kind) in [("surfaceshader", "surface"), ("displacementshader", "displacement")] {
+        if let Source::Output(end, output) = document.node(innermost).source(input) {
+            terminals += &terminal(&root, kind, document.node(end), &output);
+        }
+    }
+    let is_shader = |index: &usize| !materials.contains(&NodeIndex(*index));
+    let shaders = (0..document.nodes.len()).filter(is_shader).map(|index| shader(&root, &document.nodes[index], &document, problems));
+    let shaders: String = shaders.collect();
+    format!("def Material \"{name}\"\n{{\n{terminals}{shaders}}}\n")
+}
+
+/// The output of a material that is that of its shader.
+fn terminal(root: &str, kind: &str, end: &Node, output: &str) -> String {
+    let (end, output) = (identifier(&end.path), identifier(output));
+    format!("token outputs:mtlx:{kind}.connect = <{root}/{end}.outputs:{output}>\n")
 }
 
 fn shader(root: &str, node: &Node, document: &Document, problems: &mut Vec<String>) -> String {
     let name = identifier(&node.path);
     let mut text = format!("def Shader \"{name}\"\n{{\nuniform token info:id = {}\n", quoted(&node.id));
     for port in &node.inputs {
-        let input = identifier(&port.name);
+        let input = port.name.split(':').map(identifier).collect::<Vec<_>>().join(":");
         let line = match &port.source {
             Source::Output(index, output) => {
                 let (source, output) = (identifier(&document.node(*index).path), identifier(output));
@@ -105,13 +153,16 @@ fn shader(root: &str, node: &Node, document: &Document, problems: &mut Vec<Strin
             Source::Value(value, said) => value_line(&input, value, said),
             // What a node reads of the surface where nothing is said is its own affair.
             Source::Nothing | Source::Geometric(_) => continue,
-            Source::Unreadable(_) => None,
+            Source::Unreadable(problem) => {
+                problems.push(format!("the input '{input}' of '{name}' is left out: {problem}"));
+                continue;
+            }
         };
         match line {
             Some(line) => {
                 let _ = writeln!(text, "{line}");
             }
-            None => problems.push(format!("the input '{input}' of '{name}' has no usable value, it is left out")),
+            None => problems.push(format!("the input '{input}' of '{name}' names a file that cannot be written, it is left out")),
         }
     }
     text + "token outputs:out\n}\n"
@@ -192,7 +243,8 @@ mod tests {
             <gltf_pbr name="S" type="surfaceshader"><input name="roughness" type="float" nodename="a"/><input name="ior" type="float" nodename="no"/></gltf_pbr>
             <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial></materialx>"#;
         let Converted { layer, problems, .. } = convert(text, Path::new("doc.mtlx"), None).expect("converts");
-        assert_eq!(problems.len(), 1);
+        assert_eq!(problems.len(), 2, "{problems:?}");
+        assert!(problems.iter().any(|problem| problem.contains("the node 'no'")), "{problems:?}");
         assert!(layer.contains("ND_add_float") && !layer.contains("inputs:ior"));
         assert!(convert("<other/>", Path::new("doc.mtlx"), None).is_err());
     }

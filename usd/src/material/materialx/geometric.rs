@@ -2,6 +2,7 @@
 
 use super::super::emit::{multiply, scalar};
 use super::super::network::{Network, Shader};
+use super::super::varying::primvar;
 use gonio::scene::{Input, Operation, Quantity, Space};
 
 /// What lies in front of the coordinates' names.
@@ -148,11 +149,11 @@ pub(super) fn colours(network: &mut Network<'_>, shader: &Shader, _: &str) -> Op
 
 /// A primvar; the library's own names stand for what they mean.
 pub(super) fn property(network: &mut Network<'_>, shader: &Shader, kind: &str) -> Option<Input> {
-    let fallback = network.uniform(shader, "default", [0.0; 4]);
+    let [fallback] = network.inputs(shader, [("default", 0.0)]);
     let name = network.text(shader, "geomprop").filter(|name| !name.is_empty() && !kind.starts_with("string"))?;
     match name.as_str() {
         "UV0" | "Pobject" | "Pworld" | "Nobject" | "Nworld" | "Tobject" | "Tworld" | "Bobject" | "Bworld" => Some(network.geometric(&name)),
-        _ => Some(network.primvar(name, fallback)),
+        _ => Some(primvar(&mut network.graph, name, fallback)),
     }
 }
 

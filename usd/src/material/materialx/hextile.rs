@@ -3,8 +3,10 @@
 
 use super::super::emit::{add, binary, combine, component, divide, less, mix, multiply, rest, scalar, subtract, unary};
 use super::super::network::{Network, Shader};
+use super::super::varying::Image;
 use super::math::{dot, fract};
-use gonio::scene::{Graph, Input, Operation, TextureFilter, WrapMode};
+use super::texture::fallback;
+use gonio::scene::{Graph, Input, Operation, WrapMode};
 
 /// Edges of a tile's image in edges of the grid of triangles.
 const FIT: f32 = 3.464_101_6;
@@ -22,12 +24,11 @@ struct Tile {
 }
 
 pub(super) fn image(network: &mut Network<'_>, shader: &Shader, kind: &str) -> Option<Input> {
-    let fallback = network.uniform(shader, "default", if kind.ends_with('4') { [0.0; 4] } else { [0.0, 0.0, 0.0, 1.0] });
-    let Some(texture) = network.texture(shader, None, "auto") else { return Some(Input::Constant(fallback)) };
+    let fallback = fallback(network, shader, kind);
+    let Some(texture) = network.texture(shader, None, "auto") else { return Some(fallback) };
     let tiles = tiles(network, shader);
-    let operation =
-        Operation::Image { texture, wrap: [WrapMode::Repeat; 2], filter: TextureFilter::Linear, scale: [1.0; 4], bias: [0.0; 4], fallback };
-    let texels = tiles.each_ref().map(|tile| network.node(operation.clone(), vec![tile.coordinates]));
+    let image = Image::plain(texture, [WrapMode::Repeat; 2], fallback);
+    let texels = tiles.each_ref().map(|tile| image.at(&mut network.graph, tile.coordinates));
     let [contrast, falloff] = network.inputs(shader, [("falloffcontrast", 0.5), ("falloff", 0.5)]);
     let weights = network.input(shader, "lumacoeffs").unwrap_or(Input::Constant([0.272_228_7, 0.674_081_8, 0.053_689_5, 1.0]));
     let graph = &mut network.graph;

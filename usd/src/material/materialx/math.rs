@@ -143,17 +143,26 @@ fn default(id: &str) -> [f32; 2] {
     if id.contains("_boolean") { [1.0, 0.0] } else { [0.0, 0.0] }
 }
 
-pub(super) fn if_greater(network: &mut Network<'_>, shader: &Shader, _: &str) -> Option<Input> {
-    let [a, b] = network.inputs(shader, [("value1", 1.0), ("value2", 0.0)]);
-    let condition = less(&mut network.graph, b, a);
+/// A node that chooses between two inputs by comparing numbers.
+pub(super) fn if_compared(network: &mut Network<'_>, shader: &Shader, _: &str) -> Option<Input> {
+    let condition = condition(network, shader)?;
     choose(network, shader, condition)
 }
 
-pub(super) fn if_greater_or_equal(network: &mut Network<'_>, shader: &Shader, _: &str) -> Option<Input> {
-    let [a, b] = network.inputs(shader, [("value1", 1.0), ("value2", 0.0)]);
-    let below = less(&mut network.graph, a, b);
-    let condition = rest(&mut network.graph, below);
-    choose(network, shader, condition)
+/// 1 where such a node takes its first input, else 0; `None` for other nodes.
+pub(super) fn condition(network: &mut Network<'_>, shader: &Shader) -> Option<Input> {
+    let node = super::split(&shader.id).0;
+    let [a, b] = network.inputs(shader, [("value1", if node == "ifequal" { 0.0 } else { 1.0 }), ("value2", 0.0)]);
+    let graph = &mut network.graph;
+    Some(match node {
+        "ifgreater" => less(graph, b, a),
+        "ifgreatereq" => {
+            let below = less(graph, a, b);
+            rest(graph, below)
+        }
+        "ifequal" => equal(graph, a, b),
+        _ => return None,
+    })
 }
 
 /// 1 where two numbers are the same, else 0.
@@ -161,12 +170,6 @@ pub(super) fn equal(graph: &mut Graph, a: Input, b: Input) -> Input {
     let (below, above) = (less(graph, a, b), less(graph, b, a));
     let other = add(graph, below, above);
     rest(graph, other)
-}
-
-pub(super) fn if_equal(network: &mut Network<'_>, shader: &Shader, _: &str) -> Option<Input> {
-    let [a, b] = network.inputs(shader, [("value1", 0.0), ("value2", 0.0)]);
-    let condition = equal(&mut network.graph, a, b);
-    choose(network, shader, condition)
 }
 
 /// The input of the number that `which` begins with; the first two only where nothing is said of the others.

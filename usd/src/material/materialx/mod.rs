@@ -16,6 +16,7 @@ mod physical;
 mod table;
 mod texture;
 mod transform;
+mod varying_matrices;
 
 use super::network::{Network, Shader};
 use gonio::scene::{Graph, Input};

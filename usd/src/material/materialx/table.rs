@@ -68,9 +68,9 @@ pub(in crate::material) const ROWS: &[Row] = &[
     row("crossproduct", Of(SUM, math::cross)),
     row("reflect", Own(math::reflect)),
     // Comparison and logic.
-    row("ifgreater", Own(math::if_greater)),
-    row("ifgreatereq", Own(math::if_greater_or_equal)),
-    row("ifequal", Own(math::if_equal)),
+    row("ifgreater", Own(math::if_compared)),
+    row("ifgreatereq", Own(math::if_compared)),
+    row("ifequal", Own(math::if_compared)),
     row("switch", Own(math::switch)),
     row("and", Of(SUM, math::and)),
     row("or", Of(SUM, math::or)),

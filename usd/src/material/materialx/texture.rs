@@ -2,14 +2,15 @@
 
 use super::super::emit::{divide, multiply, subtract};
 use super::super::network::{Network, Shader};
+use super::super::varying::Image;
 use super::transform::transformed;
-use gonio::scene::{Input, Operation, TextureFilter, WrapMode};
+use gonio::scene::{Input, TextureFilter, WrapMode};
 
 pub(super) fn image(network: &mut Network<'_>, shader: &Shader, kind: &str) -> Option<Input> {
-    let fallback = network.uniform(shader, "default", if kind.ends_with('4') { [0.0; 4] } else { [0.0, 0.0, 0.0, 1.0] });
+    let fallback = fallback(network, shader, kind);
     let unstated = if kind.starts_with("color") { "auto" } else { "raw" };
     let Some(texture) = network.texture(shader, None, unstated) else {
-        return Some(Input::Constant(fallback));
+        return Some(fallback);
     };
     let wrap = ["uaddressmode", "vaddressmode"].map(|name| match network.text(shader, name).as_deref() {
         None | Some("periodic") => WrapMode::Repeat,
@@ -28,7 +29,13 @@ pub(super) fn image(network: &mut Network<'_>, shader: &Shader, kind: &str) -> O
     if super::split(&shader.id).0 == "tiledimage" {
         coordinates = tile(network, shader, coordinates);
     }
-    Some(network.node(Operation::Image { texture, wrap, filter, scale: [1.0; 4], bias: [0.0; 4], fallback }, vec![coordinates]))
+    Some(Image { filter, ..Image::plain(texture, wrap, fallback) }.at(&mut network.graph, coordinates))
+}
+
+/// What an image is where it is not to be had.
+pub(super) fn fallback(network: &mut Network<'_>, shader: &Shader, kind: &str) -> Input {
+    let black = if kind.ends_with('4') { [0.0; 4] } else { [0.0, 0.0, 0.0, 1.0] };
+    network.input(shader, "default").unwrap_or(Input::Constant(black))
 }
 
 /// `(uv · tiling - offset) / image size · tile size`.

@@ -1,26 +1,13 @@
 //! Coordinates turned, scaled and moved.
 
-use super::super::emit::{add, combine, component, divide, multiply, scalar, subtract, unary};
+use super::super::emit::{add, component, divide, multiply, scalar, subtract, unary};
 use super::super::network::{Network, Shader};
+use super::super::varying::turned;
 use super::math::dot;
-use gonio::scene::{Graph, Input, Operation};
-
-/// Degrees in a radian.
-const RADIANS_PER_DEGREE: f32 = std::f32::consts::PI / 180.0;
+use gonio::scene::{Input, Operation};
 
 pub(super) fn transformed(network: &mut Network<'_>, input: Input, scale: [f32; 2], rotation_deg: f32, translation: [f32; 2]) -> Input {
     network.node(Operation::Transform2d { scale, rotation_deg, translation }, vec![input])
-}
-
-/// Clockwise by degrees.
-fn turned(graph: &mut Graph, input: Input, degrees: Input) -> Input {
-    let angle = multiply(graph, component(degrees, 0), scalar(RADIANS_PER_DEGREE));
-    let (sin, cos) = (unary(graph, Operation::Sine, angle), unary(graph, Operation::Cosine, angle));
-    let (x, y) = (component(input, 0), component(input, 1));
-    let (cos_x, sin_y) = (multiply(graph, cos, x), multiply(graph, sin, y));
-    let (cos_y, sin_x) = (multiply(graph, cos, y), multiply(graph, sin, x));
-    let parts = [add(graph, cos_x, sin_y), subtract(graph, cos_y, sin_x)];
-    combine(graph, &parts)
 }
 
 pub(super) fn rotate_2d(network: &mut Network<'_>, shader: &Shader, _: &str) -> Option<Input> {
@@ -37,7 +24,7 @@ pub(super) fn rotate_3d(network: &mut Network<'_>, shader: &Shader, _: &str) -> 
     let axis = network.input(shader, "axis").unwrap_or(Input::Constant([0.0, 1.0, 0.0, 1.0]));
     let graph = &mut network.graph;
     let axis = unary(graph, Operation::Normalize, axis);
-    let angle = multiply(graph, component(amount, 0), scalar(RADIANS_PER_DEGREE));
+    let angle = multiply(graph, component(amount, 0), scalar(1.0_f32.to_radians()));
     let (sin, cos) = (unary(graph, Operation::Sine, angle), unary(graph, Operation::Cosine, angle));
     let cross = super::math::cross(graph, &[input, axis]);
     let along = dot(graph, axis, input, 3);

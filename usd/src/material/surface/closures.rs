@@ -98,12 +98,23 @@ fn emission(network: &mut Network<'_>, shader: &Shader) -> Input {
             let (edf, factor) = (inner(network, "in1"), network.input(shader, "in2").unwrap_or(scalar(1.0)));
             multiply(&mut network.graph, edf, factor)
         }
-        _ => {
-            if &*shader.id != "ND_uniform_edf" {
-                network.unsupported(&format!("the directions of '{}'", shader.id), shader);
-            }
+        "uniform_edf" => network.colour(shader, "color", [1.0; 3]),
+        "generalized_schlick_edf" => {
+            network.unsupported(&format!("the directions of '{}'", shader.id), shader);
+            let (edf, facing) = (inner(network, "base"), network.colour(shader, "color0", [1.0; 3]));
+            multiply(&mut network.graph, edf, facing)
+        }
+        "conical_edf" | "measured_edf" => {
+            network.unsupported(&format!("the directions of '{}'", shader.id), shader);
             network.colour(shader, "color", [1.0; 3])
         }
+        _ => match network.inside(shader) {
+            Some(inside) => network.within(&inside, |network| emission(network, &inside)).unwrap_or(scalar(0.0)),
+            None => {
+                network.warn(shader, format!("the emission distribution '{}' is not supported; it is left out", shader.id));
+                scalar(0.0)
+            }
+        },
     }
 }
 

@@ -1,5 +1,6 @@
 //! MaterialX's surface shaders as parameters of the surface block. Arnold's of the same names have the same parameters.
 
+use super::cut_by;
 use super::lobes::direction;
 use crate::material::emit::{component, constant_scalar, is_constant, luminance, multiply, scalar};
 use crate::material::network::{Network, Shader};
@@ -224,10 +225,8 @@ fn gltf_pbr(surface: &mut Surface<'_, '_>) {
     let mode = surface.network.number(surface.shader, "alpha_mode", 0.0);
     if mode != 0.0 {
         let alpha = surface.scalar("alpha", 1.0);
-        surface.closure.set_input("geometry_opacity", alpha);
-    }
-    if mode == 1.0 {
-        surface.closure.opacity_threshold = surface.network.number(surface.shader, "alpha_cutoff", 0.5);
+        let threshold = if mode == 1.0 { surface.scalar("alpha_cutoff", 0.5) } else { scalar(0.0) };
+        cut_by(surface.network, &mut surface.closure, alpha, threshold);
     }
     surface.closure.normal = surface.direction("normal");
     surface.left_out(&[("dispersion", 0.0)]);

@@ -12,8 +12,9 @@ mod omniverse;
 mod preview_surface;
 mod realitykit;
 
-use super::emit::{colour, is_constant, multiply, scalar, subtract};
+use super::emit::{colour, constant_scalar, is_constant, multiply, scalar, subtract};
 use super::network::{Network, Shader};
+use super::varying::cut_out;
 use gonio::scene::{Closure, Input, Model};
 
 /// The closures of a surface shader; `None` where it is not one that is known.
@@ -57,6 +58,17 @@ fn weighted(network: &mut Network<'_>, mut closures: Vec<Closure>, weight: Input
     }
     closures.retain(|closure| !is_constant(closure.weight, 0.0));
     closures
+}
+
+/// Opacity, all or nothing where there is a threshold.
+fn cut_by(network: &mut Network<'_>, closure: &mut Closure, opacity: Input, threshold: Input) {
+    match constant_scalar(threshold) {
+        Some(threshold) => {
+            closure.opacity_threshold = threshold.clamp(0.0, 1.0);
+            closure.set_input("geometry_opacity", opacity);
+        }
+        None => closure.set_input("geometry_opacity", cut_out(&mut network.graph, opacity, threshold)),
+    }
 }
 
 /// Closures of which only a share is there; through the rest light goes straight.

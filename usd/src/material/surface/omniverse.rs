@@ -1,9 +1,11 @@
 //! Omniverse's materials, whose code is in MDL files: `OmniPBR` with its variants and `OmniGlass`.
 
+use super::cut_by;
 use crate::material::emit::{binary, colour, component, is_constant, luminance, mix, multiply, scalar, subtract};
 use crate::material::network::{Network, Shader};
 use crate::material::neutral::{Source, Value};
-use gonio::scene::{Closure, Input, Model, Operation, TextureFilter, WrapMode};
+use crate::material::varying::{Image, placed};
+use gonio::scene::{Closure, Input, Model, Operation, WrapMode};
 
 /// Normal reflectance of a dielectric whose `specular_level` is 1.
 const FULL_LEVEL: f32 = 0.08;
@@ -26,15 +28,15 @@ fn image(network: &mut Network<'_>, shader: &Shader, name: &str, unstated: &str)
         _ => return None,
     }
     let texture = network.texture_of(shader, name, None, unstated)?;
-    let [sx, sy, ..] = network.uniform(shader, "texture_scale", [1.0; 4]);
-    let [x, y, ..] = network.uniform(shader, "texture_translate", [0.0; 4]);
-    let rotation_deg = network.number(shader, "texture_rotate", 0.0);
+    let [scale, moved, turn] = network.inputs(shader, [("texture_scale", 1.0), ("texture_translate", 0.0), ("texture_rotate", 0.0)]);
     let mut coordinates = network.texture_coordinates(0);
-    if (sx, sy, x, y, rotation_deg) != (1.0, 1.0, 0.0, 0.0, 0.0) {
-        coordinates = network.node(Operation::Transform2d { scale: [sx, sy], rotation_deg, translation: [x, y] }, vec![coordinates]);
+    let is_as_it_lies =
+        matches!((scale, moved, turn), (Input::Constant([1.0, 1.0, ..]), Input::Constant([0.0, 0.0, ..]), Input::Constant([0.0, ..])));
+    if !is_as_it_lies {
+        coordinates = placed(&mut network.graph, coordinates, scale, turn, moved);
     }
-    let (wrap, filter, fallback) = ([WrapMode::Repeat; 2], TextureFilter::Linear, [0.0, 0.0, 0.0, 1.0]);
-    Some(network.node(Operation::Image { texture, wrap, filter, scale: [1.0; 4], bias: [0.0; 4], fallback }, vec![coordinates]))
+    let fallback = Input::Constant([0.0, 0.0, 0.0, 1.0]);
+    Some(Image::plain(texture, [WrapMode::Repeat; 2], fallback).at(&mut network.graph, coordinates))
 }
 
 fn is_on(network: &mut Network<'_>, shader: &Shader, name: &str) -> bool {
@@ -130,8 +132,8 @@ fn opacity(network: &mut Network<'_>, shader: &Shader, closure: &mut Closure) {
         Some(image) => luminance(&mut network.graph, image),
         None => network.scalar(shader, "opacity_constant", 1.0),
     };
-    closure.set_input("geometry_opacity", opacity);
-    closure.opacity_threshold = network.number(shader, "opacity_threshold", 0.0).clamp(0.0, 1.0);
+    let threshold = network.scalar(shader, "opacity_threshold", 0.0);
+    cut_by(network, closure, opacity, threshold);
 }
 
 /// The normal map; its green runs up unless `flip_tangent_v` is taken back.

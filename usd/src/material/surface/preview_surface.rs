@@ -1,6 +1,6 @@
 //! UsdPreviewSurface as parameters of the surface block, by the UsdPreviewSurface specification.
 
-use super::{straight, weighted};
+use super::{cut_by, straight, weighted};
 use crate::material::emit::{binary, constant_scalar, is_constant, multiply, scalar, subtract};
 use crate::material::network::{Network, Shader};
 use crate::material::usd_nodes::tangent_normal;
@@ -85,10 +85,11 @@ fn specular_workflow(network: &mut Network<'_>, shader: &Shader, closure: &mut C
 /// `presence` it removes the surface.
 fn opacity(network: &mut Network<'_>, shader: &Shader, mut closure: Closure) -> Vec<Closure> {
     let opacity = network.scalar(shader, "opacity", 1.0);
-    closure.opacity_threshold = network.number(shader, "opacityThreshold", 0.0).clamp(0.0, 1.0);
+    let threshold = network.scalar(shader, "opacityThreshold", 0.0);
+    let cuts = constant_scalar(threshold).is_none_or(|threshold| threshold > 0.0);
     let is_presence = network.text(shader, "opacityMode").as_deref() == Some("presence");
-    if is_presence || closure.opacity_threshold > 0.0 || is_constant(opacity, 1.0) {
-        closure.set_input("geometry_opacity", opacity);
+    if is_presence || cuts || is_constant(opacity, 1.0) {
+        cut_by(network, &mut closure, opacity, threshold);
         return vec![closure];
     }
     let clear = reflection_alone(network, &closure);

@@ -1,6 +1,6 @@
 //! RealityKit's surfaces, as Reality Composer and its exporters write them: the lit one has UsdPreviewSurface's parameters, the other shines.
 
-use super::{preview_surface, shining};
+use super::{cut_by, preview_surface, shining};
 use crate::material::emit::{multiply, scalar};
 use crate::material::network::{Network, Shader};
 use gonio::scene::Closure;
@@ -29,7 +29,7 @@ fn lit(network: &mut Network<'_>, shader: &Shader) -> Vec<Closure> {
 
 fn unlit(network: &mut Network<'_>, shader: &Shader) -> Closure {
     let mut closure = shining(network.colour(shader, "color", [1.0; 3]));
-    closure.set_input("geometry_opacity", network.scalar(shader, "opacity", 1.0));
-    closure.opacity_threshold = network.number(shader, "opacityThreshold", 0.0).clamp(0.0, 1.0);
+    let (opacity, threshold) = (network.scalar(shader, "opacity", 1.0), network.scalar(shader, "opacityThreshold", 0.0));
+    cut_by(network, &mut closure, opacity, threshold);
     closure
 }
