@@ -43,6 +43,8 @@ class GONIO_RENDER_PT_bake(RenderPanel, Panel):
             row = layout.row()
             row.active = scene.camera is not None
             row.prop(scene.render.bake, "view_from")
+        if kind == "COMBINED" or kind in {"EMIT", *LOBES}:
+            layout.prop(scene.gonio, "use_denoising")
 
 
 class GONIO_RENDER_PT_bake_influence(RenderPanel, Panel):

@@ -231,3 +231,70 @@ def test_what_cannot_be_baked_is_told(tmp_path: Path):
     image_of(floor, 4, 4)
     with pytest.raises(RuntimeError, match="nothing to bake"):
         bpy.ops.object.bake(type="SHADOW")
+
+
+@pytest.mark.blender
+@pytest.mark.parametrize("joined", [False, True])
+def test_a_box_is_dark_where_it_stands_on_a_floor(joined, tmp_path: Path):
+    import unittest
+
+    import bpy
+    import numpy as np
+    import scenes
+
+    scene = scenes.empty(samples=64)
+    if not hasattr(scene, "cycles"):
+        raise unittest.SkipTest("this bpy has no Cycles")
+    scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (1, 1, 1, 1)
+    bpy.ops.mesh.primitive_plane_add(size=6.0)
+    floor = bpy.context.object
+    floor.data.materials.append(scenes.diffuse("Floor", (0.35, 0.35, 0.35)))
+    bpy.ops.mesh.primitive_cube_add(size=1.2, location=(-1.0, 0.0, 0.6))
+    box = bpy.context.object
+    box.data.materials.append(scenes.diffuse("Box", (0.7, 0.5, 0.3)))
+    if joined:
+        # Its coordinates lie beside the texture.
+        for corner in floor.data.uv_layers.active.uv:
+            corner.vector.x += 2.0
+        choose(box, floor)
+        bpy.ops.object.join()
+    choose(box)
+    image = image_of(box, 64, 64)
+    scene.cycles.samples, scene.cycles.use_denoising = 64, False
+    for kind in ("AO", "COMBINED"):
+        bake(kind)
+        found = pixels(image)[..., :3].copy()
+        bake(kind, engine="CYCLES")
+        expected = pixels(image)[..., :3].copy()
+        means = [each.reshape(8, 8, 8, 8, 3).mean(axis=(1, 3)) for each in (found, expected)]
+        # Blocks that lie within the underside.
+        dark = means[1].max(axis=-1) < 1e-6
+        assert dark.sum() >= 2 and means[0][dark].max() < 1e-6, (kind, dark.sum(), means[0][dark].max())
+        assert np.isclose(found.mean(), expected.mean(), rtol=0.01), (kind, found.mean(), expected.mean())
+
+
+@pytest.mark.blender
+def test_denoised_bakes_have_less_noise_or_say_why_not(tmp_path: Path):
+    import importlib.util
+
+    import bpy
+    import numpy as np
+    import scenes
+
+    scene = scenes.lit_floor(watts=100.0, samples=4)
+    floor = bpy.data.objects["Floor"]
+    floor.scale = (0.1, 0.1, 1.0)
+    bpy.ops.mesh.primitive_cube_add(size=0.5, location=(0.0, 0.0, 0.6))
+    choose(floor)
+    image = image_of(floor, 32, 32)
+    scene.gonio.use_denoising = False
+    bake("COMBINED")
+    noisy = pixels(image).copy()
+    scene.gonio.use_denoising = True
+    bake("COMBINED")
+    quiet = pixels(image)
+    lines = [line.text for line in importlib.import_module("gonio_extension.report").latest().diagnostics]
+    if importlib.util.find_spec("pyoidn") is None:
+        assert sum("Denoising of bakes" in line for line in lines) == 1 and np.array_equal(noisy, quiet)
+    else:
+        assert not lines and not np.array_equal(noisy, quiet)

@@ -65,3 +65,60 @@ def test_what_does_not_fit_is_told(tmp_path):
     baking = gonio.Render.bake(scene, instance=0, **places())
     with pytest.raises(RuntimeError, match="no checkpoints"):
         baking.checkpoint(tmp_path / "a.gonio")
+
+
+# The square as seen from below.
+BACK = QUAD[:, ::-1].copy()
+
+
+def under(scene, *, triangles=BACK, height=0.0, **material):
+    """Puts a square of a material half over the lit one: it lies on the side of positive x."""
+    number = scene.add_material("cover", base_color=(0.5, 0.5, 0.5), specular_weight=0.0, **material)
+    mesh = scene.add_mesh(SQUARE, np.ascontiguousarray(triangles))
+    scene.add_instance(mesh, [number], transform=[[1, 0, 0, 1], [0, 1, 0, height], [0, 0, 1, 0], [0, 0, 0, 1]], name="cover")
+    return scene
+
+
+def halves(scene):
+    """Illuminance and radiance of the lit square's left and right half."""
+    scene.set(samples=64, passes=["illuminance", "color", "P", "albedo"])
+    pixels = {"triangles": np.array([[0, 1, 0, 1]], "i4"), "places": np.array([[[0.1, 0.4], [0.2, 0.7], [0.5, 0.4], [0.55, 0.4]]], "f4")}
+    baking = gonio.Render.bake(scene, instance=0, **pixels)
+    assert baking.wait()
+    film = baking.film()
+    found = {name: np.asarray(film[name])[0] for name in ("illuminance", "color", "P", "albedo")}
+    return found, found["P"][:, 0] > 0.0
+
+
+@pytest.mark.parametrize("triangles", [BACK, QUAD], ids=["face to face", "back to face"])
+def test_nothing_arrives_under_what_lies_on_a_surface(triangles):
+    plain, right = halves(lit_square())
+    covered, _ = halves(under(lit_square(), triangles=triangles))
+    assert right.any() and not right.all()
+    assert (covered["illuminance"][right] == 0.0).all() and (covered["color"][right, :3] == 0.0).all()
+    assert covered["illuminance"][~right] == pytest.approx(plain["illuminance"][~right], rel=1e-5)
+    # What the surface is stays known.
+    assert covered["albedo"] == pytest.approx(plain["albedo"], rel=1e-5) and (covered["color"][:, 3] == 1.0).all()
+
+
+def test_what_light_passes_covers_nothing():
+    plain, _ = halves(lit_square())
+    glass, _ = halves(under(lit_square(), transmission_weight=1.0))
+    assert glass["illuminance"].min() >= 0.0 and glass["albedo"] == pytest.approx(plain["albedo"], rel=1e-5)
+    cut_out, _ = halves(under(lit_square(), geometry_opacity=0.0))
+    assert cut_out["illuminance"] == pytest.approx(plain["illuminance"], rel=1e-5)
+    # Nor what lies below.
+    below, _ = halves(under(lit_square(), height=-1e-3))
+    assert below["illuminance"] == pytest.approx(plain["illuminance"], rel=1e-5)
+
+
+def test_faces_of_one_mesh_that_face_each_other_are_covered():
+    """Two boxes' sides in one mesh; neighbours in their plane hide nothing of each other, on their common edge either."""
+    scene = gonio.Scene()
+    scene.add_material("white", base_color=(1, 1, 1), specular_weight=0)
+    points = np.concatenate([SQUARE, SQUARE + np.float32([1, 0, 0])])
+    mesh = scene.add_mesh(points, np.concatenate([QUAD, BACK + 4]).astype("i4"))
+    scene.add_instance(mesh, [0], name="both")
+    scene.add_light("point", (100, 100, 100), transform=np.array([[1, 0, 0, 0], [0, 1, 0, 2], [0, 0, 1, 0], [0, 0, 0, 1.0]]))
+    found, right = halves(scene)
+    assert (found["illuminance"][right] == 0.0).all() and (found["illuminance"][~right] > 10.0).all()

@@ -106,13 +106,16 @@ pub(super) fn occlusion<L: Lanes>(
         io.output(0).iter_mut().zip(&near.blocked[..count]).for_each(|(open, blocked)| *open += f32::from(1 - *blocked));
     }
     let share = 1.0 / step.samples.max(1) as f32;
+    let outside = l.m(!step.inside && !step.only_local);
     l.vectorize(
         #[inline(always)]
         || {
             for at in (0..count).step_by(L::COUNT) {
                 let looks = io.input(l, 3, at).gt(0.0);
                 let open = l.load(io.output(0), at) * share;
-                io.store(at, [looks.select(open, l.f(1.0))]);
+                // What lies on the surface is as near as can be.
+                let covered = outside & l.load(&points.columns.error, points.first + at).lt(0.0);
+                io.store(at, [looks.select(open.keep_if(!covered), l.f(1.0))]);
             }
         },
     );

@@ -5,10 +5,11 @@
 use crate::schedule::path::{self, PathIntegrator};
 use crate::schedule::steps;
 use crate::schedule::whitted::{self, WhittedIntegrator};
+use crate::stage::covered::find_covered;
 use crate::stage::generate::{TileArea, generate, generate_at};
 use crate::stage::integrator::Integrator;
 use crate::stage::intersect::find_first;
-use crate::stage::places::{PlaceTable, Started, start_places};
+use crate::stage::places::{PlaceBatch, PlaceTable, Started, look_at_places, start_places};
 use crate::stage::sensors::{SensorTable, start_sensors};
 use crate::state::sample::SampleContext;
 use crate::state::workspace::Workspace;
@@ -124,11 +125,15 @@ impl Tracer<'_> {
                 self.begin_measuring(integrator, batch, ws)
             }
             Start::Places(table) => {
-                let Workspace { paths, nearest, queues, .. } = &mut *ws;
+                let Workspace { paths, nearest, queues, covered, .. } = &mut *ws;
                 queues.next.clear();
-                dispatch!(self.transport.execution, l => {
-                    let mut started = Started { paths: &mut *paths, hits: &mut nearest.hits, points: &mut queues.measure };
-                    start_places(l, self.tables, table, sampler, area, runs, &mut started);
+                let (execution, places) = (self.transport.execution, PlaceBatch { sampler, area, runs });
+                let count = dispatch!(execution, l => look_at_places(l, self.tables, table, places, nearest));
+                find_covered(self.tables, execution, count, nearest, covered);
+                dispatch!(execution, l => {
+                    let mut started =
+                        Started { paths: &mut *paths, hits: &mut nearest.hits, points: &mut queues.measure, covered: &covered[..] };
+                    start_places(l, self.tables, table, places, &mut started);
                 });
                 if table.looks() { 0 } else { self.begin_measuring(integrator, batch, ws) }
             }

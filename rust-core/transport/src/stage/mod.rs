@@ -19,6 +19,7 @@
 pub(crate) mod catcher;
 pub(crate) mod closure;
 pub(crate) mod corners;
+pub(crate) mod covered;
 pub(crate) mod emit;
 pub(crate) mod exit;
 pub(crate) mod first_surface;

@@ -3,12 +3,14 @@
 //! A pixel says where on a triangle it is, so nothing needs to be traced to find it: what its path "meets" first is written down as a hit.
 
 use crate::geometry::{NONE, SurfacePoint};
+use crate::stage::covered::{REACH, covered_lanes};
 use crate::stage::generate::TileArea;
 use crate::state::flag;
+use crate::state::nearest::NearestHits;
 use crate::state::paths::{PathLanes, Paths, PreviousLanes};
 use crate::state::queue::measure_points::{MeasureLanes, MeasurePoints};
 use crate::state::rays::RayLanes;
-use crate::tables::Tables;
+use crate::tables::{Tables, ray_mask};
 use gonio_accel::Hits;
 use gonio_camera::sampler::{CAPACITY, Runs, Sampler, dimension, morton_even};
 use gonio_simd::{Column, F, Lanes, M, Spectrum, U, Vec3, padded};
@@ -92,6 +94,8 @@ struct PlaceLanes<L: Lanes> {
     uv: [F<L>; 2],
     /// Barycentric steps along a row and down a column.
     steps: [[F<L>; 2]; 2],
+    slot: U<L>,
+    inside: M<L>,
 }
 
 /// What starts at places.
@@ -99,51 +103,83 @@ pub(crate) struct Started<'a> {
     pub(crate) paths: &'a mut Paths,
     pub(crate) hits: &'a mut Hits,
     pub(crate) points: &'a mut MeasurePoints,
+    /// 1 for places that another surface lies on.
+    pub(crate) covered: &'a [u8],
+}
+
+/// The random numbers of a batch, and its pixels.
+#[derive(Clone, Copy)]
+pub(crate) struct PlaceBatch<'a> {
+    pub(crate) sampler: &'a Sampler,
+    pub(crate) area: TileArea,
+    pub(crate) runs: &'a Runs,
+}
+
+/// Short rays through every place of a tile that a batch holds, from before it to behind it, and what they start from as hits; gives their number.
+#[inline(always)]
+pub(crate) fn look_at_places<L: Lanes>(
+    l: L,
+    tables: &Tables,
+    table: &PlaceTable,
+    batch: PlaceBatch<'_>,
+    nearest: &mut NearestHits,
+) -> usize {
+    let NearestHits { hits, behind_rays, .. } = nearest;
+    hits.resize(padded(CAPACITY) + gonio_simd::PADDING);
+    behind_rays.mask.fill(ray_mask::SHADOW);
+    let mut count = 0;
+    for register in batch.runs.registers(L::COUNT) {
+        let Some(PlaceLanes { instance, triangle, uv: [u, v], inside, .. }) = place_lanes(l, table, batch, register) else { continue };
+        let point = tables.geometry.surface_point(l, &tables.geometry.hit_lanes(l, instance, triangle, u, v));
+        let reach = point.error * REACH;
+        let (origin, direction) = (point.geometric_normal.mul_add(reach, point.position), -point.geometric_normal);
+        behind_rays.append(&RayLanes { origin, direction, t_min: l.f(0.0), t_max: reach * 2.0 }, inside, count);
+        instance.append(inside, &mut hits.instance, count);
+        triangle.append(inside, &mut hits.primitive, count);
+        count += inside.count();
+    }
+    count
 }
 
 /// Starts a path towards every place of a tile that a batch holds, with its hit, and queues the points that are measured there.
 #[inline(always)]
-pub(crate) fn start_places<L: Lanes>(
-    l: L,
-    tables: &Tables,
-    table: &PlaceTable,
-    sampler: &Sampler,
-    area: TileArea,
-    runs: &Runs,
-    started: &mut Started<'_>,
-) {
+pub(crate) fn start_places<L: Lanes>(l: L, tables: &Tables, table: &PlaceTable, batch: PlaceBatch<'_>, started: &mut Started<'_>) {
     (started.paths.count, started.points.count) = (0, 0);
     started.hits.resize(padded(CAPACITY) + gonio_simd::PADDING);
-    for [slot, first_pixel, sample] in runs.registers(L::COUNT) {
-        let (slot, pixel) = (l.iota() + slot, l.iota() + first_pixel);
-        let (x, y) = (morton_even(pixel) + area.min[0], morton_even(pixel >> 1) + area.min[1]);
-        let inside = x.lt(area.max[0]) & y.lt(area.max[1]);
-        if !inside.any() {
-            continue;
-        }
-        let number = (y * table.size[0] + x).keep_if(inside);
-        let instance = l.gather_integers(&table.instance, number);
-        let inside = inside.and_not(instance.eq(NONE));
-        if !inside.any() {
-            continue;
-        }
-        let u = sampler.pair(l, sampler.index(pixel, l.u(sample)), dimension::PIXEL);
-        let place = place_lanes(l, table, number, instance.keep_if(inside), u);
-        append(l, tables, table, &place, slot, inside, started);
+    let mut count = 0;
+    for register in batch.runs.registers(L::COUNT) {
+        let Some(place) = place_lanes(l, table, batch, register) else { continue };
+        append(l, tables, table, &place, covered_lanes(l, started.covered, count, place.inside), started);
+        count += place.inside.count();
     }
     let count = started.paths.count;
     started.hits.resize(count);
     started.paths.set_masks();
 }
 
-/// Random places in pixels, kept on their triangles.
+/// Random places in the pixels of a register, kept on their triangles, if it has any.
 #[inline(always)]
-fn place_lanes<L: Lanes>(l: L, table: &PlaceTable, number: U<L>, instance: U<L>, [x, y]: [F<L>; 2]) -> PlaceLanes<L> {
+fn place_lanes<L: Lanes>(l: L, table: &PlaceTable, batch: PlaceBatch<'_>, [slot, first_pixel, sample]: [u32; 3]) -> Option<PlaceLanes<L>> {
+    let PlaceBatch { sampler, area, .. } = batch;
+    let (slot, pixel) = (l.iota() + slot, l.iota() + first_pixel);
+    let (x, y) = (morton_even(pixel) + area.min[0], morton_even(pixel >> 1) + area.min[1]);
+    let inside = x.lt(area.max[0]) & y.lt(area.max[1]);
+    if !inside.any() {
+        return None;
+    }
+    let number = (y * table.size[0] + x).keep_if(inside);
+    let instance = l.gather_integers(&table.instance, number);
+    let inside = inside.and_not(instance.eq(NONE));
+    if !inside.any() {
+        return None;
+    }
+    let [x, y] = sampler.pair(l, sampler.index(pixel, l.u(sample)), dimension::PIXEL);
     let [at, along, down] = [pair(l, &table.at, number), pair(l, &table.along, number), pair(l, &table.down, number)];
     let (x, y) = (x - 0.5, y - 0.5);
     let u = x.mul_add(along[0], y.mul_add(down[0], at[0])).max(0.0).min(1.0);
     let v = x.mul_add(along[1], y.mul_add(down[1], at[1])).max(0.0).min(l.f(1.0) - u);
-    PlaceLanes { instance, triangle: l.gather_integers(&table.triangle, number), uv: [u, v], steps: [along, down] }
+    let (instance, triangle) = (instance.keep_if(inside), l.gather_integers(&table.triangle, number));
+    Some(PlaceLanes { instance, triangle, uv: [u, v], steps: [along, down], slot, inside })
 }
 
 #[inline(always)]
@@ -151,10 +187,10 @@ fn pair<L: Lanes>(l: L, columns: &[Column; 2], number: U<L>) -> [F<L>; 2] {
     [l.gather(&columns[0], number), l.gather(&columns[1], number)]
 }
 
-/// Writes paths and hits, and measured points.
+/// Writes paths and hits, and measured points where nothing lies on them.
 #[inline(always)]
-fn append<L: Lanes>(l: L, tables: &Tables, table: &PlaceTable, place: &PlaceLanes<L>, slot: U<L>, inside: M<L>, started: &mut Started<'_>) {
-    let PlaceLanes { instance, triangle, uv: [u, v], .. } = *place;
+fn append<L: Lanes>(l: L, tables: &Tables, table: &PlaceTable, place: &PlaceLanes<L>, covered: M<L>, started: &mut Started<'_>) {
+    let PlaceLanes { instance, triangle, uv: [u, v], slot, inside, .. } = *place;
     let hit = tables.geometry.hit_lanes(l, instance, triangle, u, v);
     let point = tables.geometry.surface_point(l, &hit);
     let width = width(place, &point);
@@ -171,7 +207,7 @@ fn append<L: Lanes>(l: L, tables: &Tables, table: &PlaceTable, place: &PlaceLane
             // What textures lie in is not known.
             medium: Spectrum::zero(l),
         };
-        started.points.append(&measured, inside);
+        started.points.append(&measured, inside.and_not(covered));
     }
     if !table.looks {
         return;
@@ -187,7 +223,7 @@ fn append<L: Lanes>(l: L, tables: &Tables, table: &PlaceTable, place: &PlaceLane
         width,
         spread: l.f(0.0),
         slot,
-        flags: l.u(flag::CAMERA | flag::DELTA),
+        flags: covered.select(l.u(flag::COVERED), l.u(0)) | (flag::CAMERA | flag::DELTA),
         counts: l.u(0),
         medium: Spectrum::zero(l),
         unguided: l.f(1.0),

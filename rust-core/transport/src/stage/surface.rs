@@ -104,10 +104,13 @@ pub(crate) fn surface_chunk<L: Lanes, H: HitSource + ?Sized>(
     out.has_times = !times.is_empty();
     for at in (0..source.count).step_by(L::COUNT) {
         let hits = hits.load(l, l.load_integers(source.order, at));
+        let mut covered = l.m(false);
         let (direction, width) = match source.rays {
             ChunkRays::Paths(paths) => {
                 let ConeLanes { direction, width } = paths.cone(l, hits.ray);
-                (direction, hits.distance.mul_add(paths.track(l, hits.ray).spread, width))
+                let TrackLanes { spread, flags, .. } = paths.track(l, hits.ray);
+                covered = (flags & flag::COVERED).ne(0);
+                (direction, hits.distance.mul_add(spread, width))
             }
             ChunkRays::Rays(rays) => (gather3(l, &rays.direction, hits.ray), l.f(0.0)),
             ChunkRays::Walks(walks) => (-gather3(l, &walks.rays.direction, hits.ray), l.gather(&walks.width, hits.ray)),
@@ -119,6 +122,10 @@ pub(crate) fn surface_chunk<L: Lanes, H: HitSource + ?Sized>(
             l.gather(times, hits.ray).store(&mut out.time, at);
         }
         surface_lanes(l, tables, program, &hits, direction, width, out, at);
+        if covered.any() {
+            let error = l.load(&out.error, at);
+            covered.select(-error, error).store(&mut out.error, at);
+        }
     }
 }
 
@@ -128,7 +135,7 @@ fn store_ray<L: Lanes>(l: L, hits: &FoundHits<L>, rays: ChunkRays<'_>, out: &mut
     let (flags, counts) = match rays {
         ChunkRays::Paths(paths) => {
             let TrackLanes { flags, counts, .. } = paths.track(l, hits.ray);
-            (flags, counts)
+            (flags & !flag::COVERED, counts)
         }
         ChunkRays::Rays(_) => (l.u(flag::SHADOW), l.u(0)),
         ChunkRays::Walks(walks) => (l.gather_integers(&walks.flags, hits.ray), l.gather_integers(&walks.counts, hits.ray)),

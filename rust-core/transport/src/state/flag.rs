@@ -12,6 +12,8 @@ pub(crate) const LAST_SHIFT: u32 = 3;
 pub(crate) const FIRST_SHIFT: u32 = 5;
 /// Of hits, not of paths: a shadow ray is what passes here.
 pub(crate) const SHADOW: u32 = 128;
+/// Of paths: they start at a place that another surface lies on.
+pub(crate) const COVERED: u32 = 128;
 /// The path started at a light.
 pub(crate) const FROM_LIGHT: u32 = 256;
 /// To the last surface that did not scatter specularly light paths bring light: the camera sees it, or photons are taken up there.

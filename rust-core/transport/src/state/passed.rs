@@ -79,6 +79,12 @@ impl PassedHits {
         }
     }
 
+    /// What the first rays have passed, each its own.
+    pub(crate) fn set(&mut self, passed: &[Passed]) {
+        self.begin(0, passed.len());
+        cast_slice_mut(&mut self.items)[..passed.len()].copy_from_slice(passed);
+    }
+
     /// How far some rays had come when they passed something last.
     #[inline(always)]
     pub(crate) fn distance<L: Lanes>(&self, l: L, ray: U<L>) -> F<L> {

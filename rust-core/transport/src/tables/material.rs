@@ -87,6 +87,23 @@ pub struct MaterialTable {
 }
 
 impl MaterialTable {
+    /// Whether no light comes through a material, by the geometry's number.
+    pub fn is_opaque(&self, number: u32) -> bool {
+        let first = self.surfaces.len() as u32;
+        let closures = match number.checked_sub(first) {
+            None => &self.surfaces[number as usize..=number as usize],
+            Some(mix) => {
+                let Mix { first, count, .. } = self.mixes[mix as usize];
+                &self.surfaces[first as usize..first as usize + count]
+            }
+        };
+        let passes = |material: &SurfaceMaterial| {
+            let lobes = &material.surface.lobes;
+            material.transparent || lobes.transmission || lobes.portal
+        };
+        !closures.iter().any(passes)
+    }
+
     /// The number that the geometry keeps for a material: mixes stand behind the surfaces.
     pub fn number(&self, material: usize) -> u32 {
         match self.numbers[material] {
