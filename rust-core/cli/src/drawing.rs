@@ -23,8 +23,8 @@ pub(super) fn encoded(svg: String, path: &Path) -> Result<Vec<u8>> {
         return Ok(svg.into_bytes());
     }
     let pixels = drawn(&svg).map_err(|error| Error::io(path, error))?;
-    // Pages are opaque, so that colours times their alpha are the colours.
-    encode_png(pixels.data(), pixels.width(), pixels.height()).map_err(|error| Error::io(path, error))
+    let [width, height] = [pixels.width(), pixels.height()];
+    encode_png(&pixels.take_demultiplied(), width, height).map_err(|error| Error::io(path, error))
 }
 
 /// The document's pixels. Letters are DejaVu Sans on every machine, whatever fonts it has.

@@ -68,6 +68,7 @@ fn tone_mapped(picture: &Picture, path: &Path) -> Result<Canvas> {
         resolution,
         window: Crop { min: [0; 2], max: resolution },
         frame: Frame::default(),
+        backdrop: Default::default(),
         layers: vec![Layer { aov: Aov::Color, name: "color".into(), values, channels: 4 }],
         samples: 1,
         mean_samples: 1.0,

@@ -107,6 +107,7 @@ fn relit(channels: &Channels, [width, height]: [usize; 2], exposure: f32, names:
         resolution,
         window: Crop { min: [0, 0], max: resolution },
         frame: Frame::default(),
+        backdrop: Default::default(),
         layers,
         samples: 0,
         mean_samples: 0.0,

@@ -8,8 +8,8 @@ use crate::{
 use gonio::{
     film::{Image, Layer, channel_names, edge_aware},
     output::{
-        DisplaySpace, ExrOptions, Look, ToneMap, display, display_linear, log_average, matte_notes, write_deep_exr, write_exr,
-        write_picture,
+        DisplaySpace, ExrOptions, Look, ToneMap, display, display_linear, display_over_black, log_average, matte_notes, write_deep_exr,
+        write_exr, write_picture,
     },
     scene::Aov,
 };
@@ -39,9 +39,10 @@ impl Film {
     /// A film of other values of the colour pass alone.
     fn with_colour(&self, values: Vec<f32>) -> Self {
         let Image { resolution, window, frame, samples, mean_samples, .. } = self.image;
-        let manifests = self.image.manifests.clone();
+        let (backdrop, manifests) = (self.image.backdrop.clone(), self.image.manifests.clone());
         let layers = vec![Layer { aov: Aov::Color, name: Aov::Color.name().to_owned(), values, channels: 4 }];
-        Self { image: Image { resolution, window, frame, layers, samples, mean_samples, manifests, deep: None }, exposure: self.exposure }
+        let image = Image { resolution, window, frame, backdrop, layers, samples, mean_samples, manifests, deep: None };
+        Self { image, exposure: self.exposure }
     }
 }
 
@@ -115,8 +116,8 @@ impl Film {
         let smooth = py.detach(|| edge_aware(&self.image, Execution::detect()));
         Ok(self.with_colour(smooth.unwrap_or_default()))
     }
-    /// A film of the tone-mapped colour pass alone: linear Rec.709 in [0, 1], which sRGB's curve shows as the picture that `write_picture` writes
-    /// with the same arguments.
+    /// A film of the tone-mapped colour pass alone: linear Rec.709 in [0, 1] times what is covered, which, divided by that, sRGB's curve shows as the
+    /// picture that `write_picture` writes with the same arguments.
     #[pyo3(signature = (tonemap = "photographic", exposure = 0.0, *, white = 6.0, adapted = None))]
     fn tone_mapped(&self, py: Python<'_>, tonemap: &str, exposure: f32, white: f32, adapted: Option<f32>) -> PyResult<Self> {
         self.layer(Aov::Color.name())?;
@@ -124,13 +125,23 @@ impl Film {
         let look = look.map_err(exception)?;
         Ok(self.with_colour(py.detach(|| display_linear(&self.image, &look, Execution::detect()))))
     }
-    /// The picture that `write_picture` writes with the same arguments, as pixels: 8-bit sRGB with coverage, colours times that.
-    #[pyo3(signature = (tonemap = "photographic", exposure = 0.0, *, white = 6.0, adapted = None))]
-    fn picture(&self, py: Python<'_>, tonemap: &str, exposure: f32, white: f32, adapted: Option<f32>) -> PyResult<Picture> {
+    /// The picture that `write_picture` writes with the same arguments, as pixels: 8-bit sRGB with coverage, by which colours are not multiplied;
+    /// `over_black` opaque, as JPEG files have it.
+    #[pyo3(signature = (tonemap = "photographic", exposure = 0.0, *, white = 6.0, adapted = None, over_black = false))]
+    fn picture(
+        &self,
+        py: Python<'_>,
+        tonemap: &str,
+        exposure: f32,
+        white: f32,
+        adapted: Option<f32>,
+        over_black: bool,
+    ) -> PyResult<Picture> {
         self.layer(Aov::Color.name())?;
         let look = ToneMap::by_name(tonemap).and_then(|operator| Look::new(operator, exposure, white, adapted, DisplaySpace::Srgb));
         let look = look.map_err(exception)?;
-        Ok(Picture::plain(self.image.size(), py.detach(|| display(&self.image, &look, Execution::detect()))))
+        let shown = if over_black { display_over_black } else { display };
+        Ok(Picture::plain(self.image.size(), py.detach(|| shown(&self.image, &look, Execution::detect()))))
     }
     /// The tone-mapped colour pass as a PNG's bytes, by which notebooks show the film; None without one.
     fn _repr_png_<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyBytes>>> {
@@ -159,7 +170,7 @@ impl Film {
     fn log_average(&self, py: Python<'_>) -> f32 {
         py.detach(|| log_average(&self.image, Execution::detect()))
     }
-    /// Writes the tone-mapped colour pass as PNG or JPEG. `tonemap` is "photographic", "local", "none" or "ev100=NUMBER", `exposure` brightens by
+    /// Writes the tone-mapped colour pass as PNG, with coverage by which colours are not multiplied, or as JPEG over black. `tonemap` is "photographic", "local", "none" or "ev100=NUMBER", `exposure` brightens by
     /// powers of two, `white` is the luminance that becomes white where the log-average is 0.18; `adapted` takes the place of the picture's own
     /// log-average; `space` is "srgb", "display-p3" or "rec2020-pq" (16 bits, absolute luminance).
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]

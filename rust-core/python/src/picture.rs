@@ -11,7 +11,7 @@ use std::{io::Write, path::PathBuf};
 /// Most pixels of a legend's height.
 const TALLEST: usize = 65_536;
 
-/// A picture for looking at: 8-bit RGBA, rows from the top.
+/// A picture for looking at: 8-bit RGBA, colours not multiplied by alpha, rows from the top.
 #[pyclass(frozen, module = "gonio")]
 pub(crate) struct Picture {
     canvas: Canvas,

@@ -38,6 +38,7 @@ pub(super) fn cases() -> Vec<Case> {
         resolution: SIZE,
         window: Crop { min: [0; 2], max: SIZE },
         frame: Frame::default(),
+        backdrop: Default::default(),
         layers,
         samples: 1,
         mean_samples: 1.0,

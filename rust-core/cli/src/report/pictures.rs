@@ -8,7 +8,7 @@ use gonio::{
     compile::{CompiledScene, compile},
     film::Image,
     measure::glare::{FisheyeProjection, FisheyeView, Glare, GlareOptions},
-    output::{FalseColour, Look, display, encode_jpeg},
+    output::{FalseColour, Look, display_over_black, encode_jpeg},
     render::Render,
     scene::{Aov, Integrator, Projection},
 };
@@ -133,7 +133,7 @@ fn luminances(image: &Image, exposure: f32) -> Vec<f32> {
 
 /// The picture as the eye would see it, over black.
 fn as_jpeg(image: &Image, options: &ReportOptions, execution: Execution) -> Result<Vec<u8>> {
-    let rgba = display(image, &Look { stops: options.exposure, ..Look::default() }, execution);
+    let rgba = display_over_black(image, &Look { stops: options.exposure, ..Look::default() }, execution);
     let [width, height] = image.size().map(|side| side as u32);
     encode_jpeg(&rgba, width, height).map_err(|error| Error::io(&options.output, error))
 }

@@ -48,7 +48,7 @@ impl Checkpoint {
             return Err(broken("the checkpoint is shorter than its picture".into()));
         }
         let mut film =
-            Film::new(&identity.settings, window, identity.exposure, identity.catchers).with_manifests(identity.manifests.clone());
+            Film::new(&identity.settings, window, identity.exposure, identity.besides).with_manifests(identity.manifests.clone());
         film.fill(&mut input).map_err(damaged)?;
         let expected = input.digest.value();
         let mut found = [0; 8];

@@ -2,6 +2,7 @@
 
 use crate::{
     error::{Error, Result},
+    film::Besides,
     scene::{Digest, Manifests, Scene, Settings, TextureSource, digest_scene},
     texture::{find_tiles, is_udim},
 };
@@ -33,8 +34,9 @@ pub struct Identity {
     pub settings: Settings,
     /// Factor on the colour pass.
     pub exposure: f32,
-    /// Whether there are shadow catchers.
-    pub(super) catchers: bool,
+    /// What its film keeps besides passes.
+    #[serde(flatten)]
+    pub(super) besides: Besides,
     /// The names in its mattes.
     #[serde(default)]
     pub(super) manifests: Arc<Manifests>,
@@ -51,7 +53,7 @@ impl Identity {
             level: execution.name().to_owned(),
             scene: digest(scene),
             exposure: scene.cameras.get(settings.camera as usize).map_or(1.0, |camera| camera.exposure.0),
-            catchers: scene.instances.iter().any(|instances| instances.shadow_catcher),
+            besides: Besides::of(scene),
             manifests: Arc::new(Manifests::of(scene)),
             settings,
             notes,

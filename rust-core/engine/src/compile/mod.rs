@@ -59,6 +59,7 @@ pub(crate) use view::{check_tiles, transport, window};
 use crate::{
     accel::{Blas, Tlas},
     error::{Diagnostic, Error, Result},
+    film::Besides,
     scene::{Camera, Manifests, MatteName, Scene, matte_id},
     transport::{MatteNames, NameRun, Tables, Workspaces},
 };
@@ -85,6 +86,8 @@ pub struct CompiledScene {
     pub statistics: CompileStatistics,
     /// The names in the mattes that the scene's passes show.
     pub(crate) manifests: Arc<Manifests>,
+    /// What films of the scene keep besides passes.
+    pub(crate) besides: Besides,
     /// What casts caustics.
     pub(crate) casters: Casters,
     /// Names of the primvars in the tables, whose columns follow that of the normals.
@@ -232,6 +235,7 @@ pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicB
         diagnostics,
         statistics,
         manifests,
+        besides: Besides::of(scene),
         casters,
         primvars: names,
         workspaces: previous.map(|p| p.workspaces.clone()).unwrap_or_default(),

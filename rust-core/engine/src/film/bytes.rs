@@ -37,7 +37,7 @@ impl Film {
         let mut scale = [0; 8];
         input.read_exact(&mut scale)?;
         let scale = Some(f64::from_le_bytes(scale)).filter(|scale| *scale > 0.0 && scale.is_finite());
-        self.splats = scale.map(|scale| Mutex::new(SplatFilm::scaled(&self.layout, self.window, self.brought, scale)));
+        self.splats = scale.map(|scale| Mutex::new(SplatFilm::scaled(&self.layout, self.window, (self.brought, self.limits), scale)));
         for tile in 0..self.tile_count() {
             let mut film = self.tile(tile);
             film.fill(input, values)?;

@@ -1,5 +1,6 @@
 //! Which passes a film keeps, and where their channels lie.
 
+use super::backdrop::Besides;
 use crate::scene::{Aov, LightPart, MatteKind, ShaderValue};
 
 /// Radiance of catchers with all objects, and without them; what is behind; coverage.
@@ -16,6 +17,8 @@ pub struct ChannelLayout {
     pub channels: usize,
     /// First channel of what shadow catchers hide, where there are any; no pass shows it as it is.
     pub catchers: Option<usize>,
+    /// The channel of the shares that holdouts have before a sky that is seen, where there are any.
+    pub holes: Option<usize>,
 }
 
 impl ChannelLayout {
@@ -40,10 +43,17 @@ impl ChannelLayout {
         Self::new(&aovs.iter().copied().chain(divisors).chain(flat).collect::<Vec<_>>())
     }
 
-    /// Makes room for what shadow catchers hide.
-    pub fn with_catchers(self, wanted: bool) -> Self {
-        let room = if wanted { CATCHER_CHANNELS } else { 0 };
-        Self { catchers: wanted.then_some(self.channels), channels: self.channels + room, ..self }
+    /// Makes room for what shadow catchers hide, and for what holdouts hide of the sky.
+    pub fn besides(self, wanted: Besides) -> Self {
+        let mut channels = self.channels;
+        let mut room = |wanted: bool, count: usize| {
+            let first = wanted.then_some(channels);
+            channels += if wanted { count } else { 0 };
+            first
+        };
+        let catchers = room(wanted.catchers, CATCHER_CHANNELS);
+        let holes = room(wanted.sky && wanted.holdouts, 1);
+        Self { catchers, holes, channels, ..self }
     }
 
     /// Whether a pass shows light by where it comes from.

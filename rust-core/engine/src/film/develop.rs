@@ -1,5 +1,6 @@
 //! From sums to an image.
 
+use super::backdrop::Backdrop;
 use super::splats::SplatFilm;
 use super::{Film, ZONES, catcher, channel_names, channels::MOTION_CHANNELS, divisor, is_index, zone_of};
 use crate::{
@@ -51,6 +52,8 @@ pub struct Image {
     pub window: Crop,
     /// Overscan and the pixels' shape.
     pub frame: Frame,
+    /// What is seen where no surface is.
+    pub backdrop: Backdrop,
     /// The passes.
     pub layers: Vec<Layer>,
     /// Samples a pixel, the least of all.
@@ -109,7 +112,29 @@ impl Film {
         let manifests = self.manifests.clone();
         let colour = layers.iter().find(|layer| layer.aov == Aov::Color);
         let deep = self.plan.deep.zip(colour).map(|(tolerance, colour)| Arc::new(self.develop_deep(tolerance, colour)));
-        Image { resolution: self.resolution, window: self.window, frame: self.frame, layers, samples, mean_samples, manifests, deep }
+        let (resolution, window, frame) = (self.resolution, self.window, self.frame);
+        Image { resolution, window, frame, backdrop: self.backdrop(width), layers, samples, mean_samples, manifests, deep }
+    }
+
+    /// What is seen behind surfaces, `width` pixels a row.
+    fn backdrop(&self, width: usize) -> Backdrop {
+        let Some(channel) = self.layout.holes else { return if self.sky { Backdrop::Sky(Arc::default()) } else { Backdrop::Open } };
+        let height = (self.window.max[1] - self.window.min[1]) as usize;
+        let mut holes = vec![0.0; width * height];
+        for tile in 0..self.tile_count() {
+            let area = self.tile_area(tile);
+            let size = [0, 1].map(|axis| (area.max[axis] - area.min[axis]) as usize);
+            let [left, top] = [0, 1].map(|axis| (area.min[axis] - self.window.min[axis]) as usize);
+            self.read(tile, |film| {
+                if film.total_samples() == 0 {
+                    return;
+                }
+                let developing = Developing { sums: film.sums.total(self.plan.rules()), samples: film.samples };
+                let mut part = Part { rows: &mut holes[top * width..], left, width, size, channels: 1 };
+                part.fill(|_, code| developing.sums[channel * BATCH + code] * developing.scale(code));
+            });
+        }
+        Backdrop::Sky(holes.into())
     }
 
     fn bands<'a>(&self, layers: &'a mut [Layer], width: usize) -> Vec<Band<'a>> {

@@ -1,5 +1,6 @@
 //! The film: sums of samples by pixel, in blocks added in order, so that the same samples always give the same bits.
 
+mod backdrop;
 mod blocks;
 mod bytes;
 mod catcher;
@@ -12,11 +13,13 @@ mod filter;
 mod matte;
 mod noise;
 mod raw;
+mod splat_limits;
 mod splats;
 mod sums;
 mod tile;
 mod zones;
 
+pub use backdrop::{Backdrop, Besides};
 pub(crate) use blocks::{GROUP, MOST_BLOCK, block, block_at};
 pub(crate) use bytes::LEAST_TILE;
 pub use channels::{ChannelLayout, channel_names, divisor, is_absolute, is_index};
@@ -50,6 +53,8 @@ pub struct Film {
     pub window: Crop,
     /// Pixels on each side that lie outside the picture proper, and the pixels' width over height.
     frame: Frame,
+    /// Whether a sky is seen behind all surfaces.
+    sky: bool,
     /// Which passes are kept, and where.
     pub layout: ChannelLayout,
     /// Names of the passes.
@@ -62,6 +67,8 @@ pub struct Film {
     splats: Option<Mutex<SplatFilm>>,
     /// Classes of light that they bring.
     brought: u8,
+    /// The most of it that a pixel has, straight from lights and otherwise, 0 for any.
+    limits: [f32; 2],
     /// The names in its mattes.
     manifests: Arc<Manifests>,
     columns: u32,
@@ -69,10 +76,11 @@ pub struct Film {
 
 impl Film {
     /// An empty film of the passes asked for; `window` lies inside the resolution, `exposure` is the factor on the colour pass, and
-    /// `catchers` tells whether the scene has shadow catchers.
-    pub fn new(settings: &Settings, window: Crop, exposure: f32, catchers: bool) -> Self {
+    /// `besides` tells what the scene wants kept.
+    pub fn new(settings: &Settings, window: Crop, exposure: f32, besides: Besides) -> Self {
+        let besides = besides.shown(settings.background);
         let across = |axis: usize| (window.max[axis] - window.min[axis]).div_ceil(TILE as u32);
-        let layout = ChannelLayout::with_divisors(&settings.aovs).with_catchers(catchers);
+        let layout = ChannelLayout::with_divisors(&settings.aovs).besides(besides);
         let names = layout.aovs.iter().map(|aov| settings.pass_name(*aov)).collect();
         let plan = Plan::new(settings, &layout, across(0) * across(1));
         let frame = Frame { overscan: settings.overscan, pixel_aspect: settings.pixel_aspect };
@@ -81,6 +89,7 @@ impl Film {
             resolution,
             window,
             frame,
+            sky: besides.sky,
             layout,
             names,
             exposure,
@@ -88,6 +97,7 @@ impl Film {
             tiles: Vec::new(),
             splats: None,
             brought: if settings.integrator == Integrator::Light { splats::SCATTERED } else { splats::INDIRECT },
+            limits: [settings.clamp_direct, settings.clamp_indirect],
             manifests: Arc::default(),
             columns,
         };
@@ -107,7 +117,7 @@ impl Film {
 
     /// Makes room for what light paths bring; `power` is that of their lights.
     pub(crate) fn with_splats(mut self, power: Option<f64>) -> Self {
-        self.splats = power.map(|power| Mutex::new(SplatFilm::new(&self.layout, self.window, self.brought, power)));
+        self.splats = power.map(|power| Mutex::new(SplatFilm::new(&self.layout, self.window, (self.brought, self.limits), power)));
         self
     }
 

@@ -2,6 +2,7 @@
 
 use super::channels::ChannelLayout;
 use super::raw::array;
+use super::splat_limits::{PixelSplats, Shows};
 use crate::{
     scene::{Aov, Crop, LightPart, ScatteringKind},
     transport::{GroupPasses, Splat},
@@ -24,8 +25,9 @@ enum Share {
     Group(u16),
 }
 
-/// The classes of light that is indirect, and of all that surfaces scatter.
+/// The classes of light that is indirect, of light straight from lights, and of all that surfaces scatter.
 pub(super) const INDIRECT: u8 = 0b11_1000;
+const DIRECT: u8 = 0b00_0111;
 pub(super) const SCATTERED: u8 = 0b11_1111;
 
 /// What is summed, and in which units.
@@ -44,6 +46,8 @@ pub(crate) struct SplatFilm {
     layout: SplatLayout,
     /// Classes of light that light paths bring.
     brought: u8,
+    /// The most of it that a pixel has, straight from lights and otherwise, 0 for any.
+    limits: [f32; 2],
     /// Light paths so far.
     paths: u64,
     /// By part, channel and pixel.
@@ -52,17 +56,31 @@ pub(crate) struct SplatFilm {
 
 /// What a pass shows of splats.
 pub(super) struct Shown<'a> {
+    film: &'a SplatFilm,
     /// By channel and pixel.
     sums: &'a [i64],
-    width: usize,
+    shows: Shows,
     unit: f64,
 }
 
 impl Shown<'_> {
     /// Radiance of a pixel of the window.
     pub(super) fn at(&self, [x, y]: [usize; 2]) -> [f64; 3] {
-        let pixels = self.sums.len() / 3;
-        [0, 1, 2].map(|channel| self.sums[channel * pixels + y * self.width + x] as f64 * self.unit)
+        let SplatFilm { layout, brought, limits, .. } = self.film;
+        let pixel = y * layout.size[0] + x;
+        let light = self.light(self.sums, pixel);
+        if *limits == [0.0; 2] {
+            return light;
+        }
+        let of = |share: Share| self.film.sums_of(share).map_or([0.0; 3], |sums| self.light(sums, pixel));
+        let direct = if brought & DIRECT == 0 { [0.0; 3] } else { of(Share::Classes(DIRECT)) };
+        let factor = PixelSplats { all: of(Share::Radiance), direct }.factor(*limits, self.shows);
+        light.map(|x| x * factor)
+    }
+
+    fn light(&self, sums: &[i64], pixel: usize) -> [f64; 3] {
+        let pixels = sums.len() / 3;
+        [0, 1, 2].map(|channel| sums[channel * pixels + pixel] as f64 * self.unit)
     }
 }
 
@@ -108,19 +126,22 @@ impl SplatLayout {
 }
 
 impl SplatFilm {
-    /// Empty sums for the passes of a film; `brought` are the classes of light that light paths bring, `power` is that of their lights.
-    pub(super) fn new(layout: &ChannelLayout, window: Crop, brought: u8, power: f64) -> Self {
+    /// Empty sums for the passes of a film; `brought` are the classes of light that light paths bring, `limits` the most that a pixel has of direct
+    /// and of indirect ones, `power` is that of their lights.
+    pub(super) fn new(layout: &ChannelLayout, window: Crop, (brought, limits): (u8, [f32; 2]), power: f64) -> Self {
         let unit = power.max(f64::MIN_POSITIVE).log2().ceil().exp2() * UNIT;
-        Self::scaled(layout, window, brought, unit.recip())
+        Self::scaled(layout, window, (brought, limits), unit.recip())
     }
 
     /// The same with a known scale.
-    pub(super) fn scaled(layout: &ChannelLayout, window: Crop, brought: u8, scale: f64) -> Self {
+    pub(super) fn scaled(layout: &ChannelLayout, window: Crop, (brought, limits): (u8, [f32; 2]), scale: f64) -> Self {
         let of_aov = |aov: &Aov| share_of(*aov, brought).filter(|share| *share != Share::Radiance);
-        let parts: Vec<Share> = [Share::Radiance].into_iter().chain(layout.aovs.iter().filter_map(of_aov)).collect();
+        // What is limited apart is summed apart.
+        let direct = (limits != [0.0; 2] && brought & DIRECT != 0).then_some(Share::Classes(DIRECT));
+        let parts: Vec<Share> = [Share::Radiance].into_iter().chain(direct).chain(layout.aovs.iter().filter_map(of_aov)).collect();
         let size = [0, 1].map(|axis| (window.max[axis] - window.min[axis]) as usize);
         let sums = vec![0; parts.len() * 3 * size[0] * size[1]];
-        Self { layout: SplatLayout { scale, parts, size }, brought, paths: 0, sums }
+        Self { layout: SplatLayout { scale, parts, size }, brought, limits, paths: 0, sums }
     }
 
     /// What is summed.
@@ -149,10 +170,15 @@ impl SplatFilm {
     /// The light that a pass shows, if it shows any of it.
     pub(super) fn shown(&self, aov: Aov) -> Option<Shown<'_>> {
         let share = share_of(aov, self.brought)?;
+        let shows = Shows::of(if let Share::Classes(classes) = share { classes } else { self.brought });
+        let unit = 1.0 / (self.layout.scale * self.paths.max(1) as f64);
+        Some(Shown { film: self, sums: self.sums_of(share)?, shows, unit })
+    }
+
+    fn sums_of(&self, share: Share) -> Option<&[i64]> {
         let first = self.layout.parts.iter().position(|known| *known == share)? * 3;
         let pixels = self.layout.size[0] * self.layout.size[1];
-        let unit = 1.0 / (self.layout.scale * self.paths.max(1) as f64);
-        Some(Shown { sums: &self.sums[first * pixels..(first + 3) * pixels], width: self.layout.size[0], unit })
+        Some(&self.sums[first * pixels..(first + 3) * pixels])
     }
 
     /// Reciprocal of a unit's value: a power of two.

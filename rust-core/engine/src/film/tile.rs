@@ -220,6 +220,9 @@ impl Block {
         if let Some(first) = layout.catchers {
             catcher::fill(&mut sums[first * BATCH..], gathered);
         }
+        if let Some(channel) = layout.holes {
+            sums[channel * BATCH..(channel + 1) * BATCH].copy_from_slice(&gathered.holes[..BATCH]);
+        }
         for (channel, sums) in sums.chunks_exact_mut(BATCH).enumerate() {
             unpack(packed, sums, film.plan.index_channels.contains(&channel));
         }

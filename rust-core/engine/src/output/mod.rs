@@ -13,5 +13,5 @@ pub use deep::write_deep_exr;
 pub use exr::{Channels, ExrOptions, exposure_of_exr, matte_notes, read_exr, write_exr};
 pub use false_colour::{Canvas, FalseColour, FalseColourScale, MOST_STEPS};
 pub use picture::{encode_jpeg, encode_png, write_picture};
-pub use tone_map::{Adaptation, DisplaySpace, Look, ToneMap, display, display_deep, display_linear, log_average};
+pub use tone_map::{Adaptation, DisplaySpace, Look, ToneMap, display, display_deep, display_linear, display_over_black, log_average};
 pub use tone_map::{KEY, ToneCurve, map_lanes};

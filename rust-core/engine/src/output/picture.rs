@@ -1,6 +1,6 @@
 //! PNG and JPEG.
 
-use super::{DisplaySpace, Look, display, display_deep, write_atomically};
+use super::{DisplaySpace, Look, display, display_deep, display_over_black, write_atomically};
 use crate::{
     error::{Error, Result},
     film::Image,
@@ -15,19 +15,20 @@ use std::{
 /// Bytes of a PNG file before its second chunk.
 const PNG_HEAD: usize = 8 + 25;
 
-/// Writes the tone-mapped colour pass as PNG (with alpha; 16 bits where luminance is absolute) or JPEG (sRGB over black), by the name's ending.
+/// Writes the tone-mapped colour pass as PNG (with coverage, by which colours are not multiplied; 16 bits where luminance is absolute) or JPEG (sRGB
+/// over black), by the name's ending.
 pub fn write_picture(path: &Path, image: &Image, look: &Look, execution: Execution) -> Result<()> {
     let size = image.size().map(|side| side as u32);
     let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
     let wrong = |problem: String| Error::setting("path", format!("{}: {problem}", path.display()));
     let encoded = match ending.as_str() {
-        "jpg" | "jpeg" if look.space == DisplaySpace::Srgb => jpeg(&display(image, look, execution), size),
+        "jpg" | "jpeg" if look.space == DisplaySpace::Srgb => jpeg(&display_over_black(image, look, execution), size),
         "jpg" | "jpeg" => return Err(wrong("JPEG files are sRGB, other colour spaces go to PNG".into())),
         "png" if look.space == DisplaySpace::Rec2020Pq => {
-            let words: Vec<u16> = opaque(&display_deep(image, look, execution));
+            let words = display_deep(image, look, execution);
             png(bytemuck::cast_slice(&words), size, ExtendedColorType::Rgba16)
         }
-        "png" => png(&opaque(&display(image, look, execution)), size, ExtendedColorType::Rgba8),
+        "png" => png(&display(image, look, execution), size, ExtendedColorType::Rgba8),
         other => return Err(wrong(format!("the ending is '{other}', expected png or jpg"))),
     };
     let mut bytes = encoded.map_err(|error| Error::io(path, std::io::Error::other(error)))?;
@@ -51,17 +52,12 @@ fn png(rgba: &[u8], [width, height]: [u32; 2], kind: ExtendedColorType) -> Image
     Ok(bytes)
 }
 
-/// Pixels whose colour does not need their alpha: light without coverage (a visible sky) counts as covered.
-fn opaque<T: Copy + Ord>(rgba: &[T]) -> Vec<T> {
-    rgba.as_chunks::<4>().0.iter().flat_map(|[r, g, b, alpha]| [*r, *g, *b, *alpha.max(r).max(g).max(b)]).collect()
-}
-
-/// 8-bit RGBA as a PNG file's bytes.
+/// 8-bit RGBA, colours not multiplied by their alpha, as a PNG file's bytes.
 pub fn encode_png(rgba: &[u8], width: u32, height: u32) -> std::io::Result<Vec<u8>> {
     png(rgba, [width, height], ExtendedColorType::Rgba8).map_err(std::io::Error::other)
 }
 
-/// 8-bit RGBA, colours times their alpha, over black as a JPEG file's bytes.
+/// 8-bit RGBA over black, whose alpha is left out, as a JPEG file's bytes.
 pub fn encode_jpeg(rgba: &[u8], width: u32, height: u32) -> std::io::Result<Vec<u8>> {
     jpeg(rgba, [width, height]).map_err(std::io::Error::other)
 }

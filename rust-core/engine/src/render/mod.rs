@@ -240,7 +240,7 @@ fn by_light_alone(scene: &CompiledScene, settings: &Settings) -> Result<()> {
 }
 
 fn film_of(scene: &CompiledScene, settings: &Settings, window: Crop, exposure: f32) -> Film {
-    let film = Film::new(settings, window, exposure, !scene.tables.geometry.set_catcher.is_empty());
+    let film = Film::new(settings, window, exposure, scene.besides);
     film.with_manifests(scene.manifests.clone())
 }
 

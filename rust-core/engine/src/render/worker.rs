@@ -131,7 +131,9 @@ fn learned(shared: &Shared, cancelled: &(dyn Fn() -> bool + Sync)) -> Learned {
 
 /// Traces a tile where it needs samples.
 fn antialias(shared: &Shared, tracer: &Tracer<'_>, rule: Rule, area: Crop, white: f32, room: &mut Room) {
-    let passes = shared.film.layout.aovs.iter().any(|aov| !matches!(aov, Aov::Color | Aov::Alpha | Aov::Luminance | Aov::SampleCount));
+    let layout = &shared.film.layout;
+    let passes =
+        layout.holes.is_some() || layout.aovs.iter().any(|aov| !matches!(aov, Aov::Color | Aov::Alpha | Aov::Luminance | Aov::SampleCount));
     let scale = shared.film.exposure() / white;
     let task = TileTask { tracer, rule, scale, min: area.min, max: area.max, passes };
     room.antialiaser.trace(&task, &mut room.workspace, &|| shared.cancel.load(Ordering::Relaxed));

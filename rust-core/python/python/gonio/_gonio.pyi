@@ -505,7 +505,13 @@ class Film:
         self, tonemap: str = "photographic", exposure: float = 0.0, *, white: float = 6.0, adapted: float | None = None
     ) -> Film: ...
     def picture(
-        self, tonemap: str = "photographic", exposure: float = 0.0, *, white: float = 6.0, adapted: float | None = None
+        self,
+        tonemap: str = "photographic",
+        exposure: float = 0.0,
+        *,
+        white: float = 6.0,
+        adapted: float | None = None,
+        over_black: bool = False,
     ) -> Picture: ...
     def _repr_png_(self) -> bytes | None: ...
     def write_exr(self, path: str | PathLike[str], half: bool = False) -> None: ...

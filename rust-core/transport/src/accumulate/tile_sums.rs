@@ -18,6 +18,8 @@ pub struct TileSums {
     pub radiance: Columns3,
     /// Coverage.
     pub alpha: Column,
+    /// Share of holdouts; empty where there are none.
+    pub holes: Column,
     /// Distance along the camera's axis, metres.
     pub depth: Column,
     /// Shading normals, world space.
@@ -71,6 +73,7 @@ impl Default for TileSums {
         Self {
             radiance: columns3(2 * BATCH),
             alpha: Column::new(BATCH),
+            holes: Column::default(),
             depth: Column::new(BATCH),
             normal: Columns3::default(),
             position: Columns3::default(),
@@ -132,6 +135,13 @@ impl TileSums {
         }
     }
 
+    /// Makes room for the shares of holdouts.
+    pub(crate) fn prepare_holes(&mut self) {
+        if self.holes.is_empty() {
+            self.holes = Column::new(BATCH);
+        }
+    }
+
     /// Sets radiance and coverage of a slot, and of how many camera rays they are made.
     pub fn set_pixel(&mut self, slot: usize, [red, green, blue, coverage]: [f32; 4], rays: u32) {
         for (column, value) in self.radiance.iter_mut().zip([red, green, blue]) {
@@ -163,7 +173,7 @@ impl TileSums {
     /// Empties all sums.
     pub fn clear(&mut self) {
         let threes = [&mut self.radiance, &mut self.normal, &mut self.position, &mut self.albedo, &mut self.uv, &mut self.specular];
-        let ones = [&mut self.alpha, &mut self.depth, &mut self.clearness, &mut self.rays, &mut self.effort.rays];
+        let ones = [&mut self.alpha, &mut self.holes, &mut self.depth, &mut self.clearness, &mut self.rays, &mut self.effort.rays];
         threes
             .into_iter()
             .chain(&mut self.guides)

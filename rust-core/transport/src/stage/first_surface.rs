@@ -1,5 +1,6 @@
 //! First-surface AOVs: depth, normal, albedo, mist and indices where camera rays land; and holdouts, which hide them.
 
+use crate::accumulate::add::add;
 use crate::accumulate::deposit::Deposits;
 use crate::accumulate::shader_passes::add_shader_passes;
 use crate::accumulate::surface_aovs::{FirstSurface, SurfaceLook};
@@ -14,13 +15,14 @@ use gonio_bsdf::Lobes;
 use gonio_camera::sampler::pixel;
 use gonio_simd::{F, Lanes, M, PADDING, U, Vec3};
 
-/// Leaves out what the camera sees of holdouts: paths end there without light or coverage.
+/// Leaves out what the camera sees of holdouts, and counts it where `counted`: paths end there without light or coverage.
 #[inline(always)]
 pub(crate) fn without_holdouts<L: Lanes>(
     chunk: &ChunkContext<'_, L>,
     material: &SurfaceMaterial,
     point: &Vertex<L>,
     present: M<L>,
+    counted: Option<&mut Deposits>,
 ) -> M<L> {
     let ChunkContext { l, tables, .. } = *chunk;
     let camera = (point.flags & flag::CAMERA).ne(0);
@@ -30,7 +32,14 @@ pub(crate) fn without_holdouts<L: Lanes>(
         let set = tables.geometry.set_lanes(l, point.instance);
         l.gather_integers(&tables.geometry.set_holdout, set).ne(0)
     };
-    present.and_not(hole & camera)
+    let hole = hole & camera;
+    if let Some(deposits) = counted
+        && !deposits.sums.holes.is_empty()
+        && (present & hole).any()
+    {
+        add(&mut deposits.sums.holes, pixel(point.slot), point.share, present & hole & catcher::shown(point.slot));
+    }
+    present.and_not(hole)
 }
 
 /// Records the AOVs of first surfaces.

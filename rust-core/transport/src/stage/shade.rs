@@ -87,7 +87,7 @@ fn load_point<L: Lanes>(chunk: &ChunkContext<'_, L>, material: &SurfaceMaterial,
         wo,
         local_wo: frame.to_local(wo),
         throughput,
-        flags,
+        flags: flags & !flag::COVERED,
         counts,
         slot,
         instance: l.load_integers(&surface.instance, at),
@@ -194,6 +194,8 @@ pub(crate) fn guide_and_measure<L: Lanes>(
     add_guides(transport, point, lobes, present, &mut deposits.sums);
     // Beyond the last bounce a path still adds emission: the BSDF half of MIS, whose NEE half was sampled before.
     let going_on = present & point.bounces.lt(transport.limits.max_bounces + 1) & transport.limits.allow(point.counts);
+    // Nothing comes to where another surface lies.
+    let going_on = going_on.and_not(point.at.error.lt(0.0));
     if transport.passes.illuminance {
         let measured = MeasureLanes {
             position: point.at.position,
@@ -227,7 +229,7 @@ pub(crate) fn add_emission_apart<L: Lanes>(
             absorb(chunk, material, &values, &mut point, at);
         }
         let present =
-            if tables.geometry.set_holdout.is_empty() { point.alive } else { without_holdouts(chunk, material, &point, point.alive) };
+            if tables.geometry.set_holdout.is_empty() { point.alive } else { without_holdouts(chunk, material, &point, point.alive, None) };
         let weight = spectrum(Rgb::load(l, [r, g, b], at)).max(0.0);
         add_emission(chunk, &point, values.spectrum(l, EMISSION_COLOR, at) * weight, present, at, deposits);
     }
@@ -245,8 +247,8 @@ pub(crate) fn add_seen<L: Lanes>(
     deposits: &mut Deposits,
 ) -> M<L> {
     let geometry = &chunk.tables.geometry;
-    let present =
-        if material.holdout || !geometry.set_holdout.is_empty() { without_holdouts(chunk, material, point, present) } else { present };
+    let pierced = material.holdout || !geometry.set_holdout.is_empty();
+    let present = if pierced { without_holdouts(chunk, material, point, present, Some(deposits)) } else { present };
     if material.surface.lobes.emission && !(apart && material.emits_apart) {
         add_emission(chunk, point, lobes.emission(), present, at, deposits);
     }

@@ -25,6 +25,8 @@ pub struct Workspace {
     pub(crate) paths: Paths,
     /// What their rays met.
     pub(crate) nearest: NearestHits,
+    /// 1 for places that another surface lies on.
+    pub(crate) covered: Vec<u8>,
     pub(crate) materials: MaterialOrder,
     /// The chunk under way.
     pub(crate) chunk: ChunkColumns,
@@ -72,6 +74,9 @@ impl Workspace {
         sums.shader.prepare(&transport.passes.shader);
         if !tables.geometry.set_catcher.is_empty() {
             sums.prepare_catchers();
+        }
+        if !tables.geometry.set_holdout.is_empty() || tables.materials.surfaces.iter().any(|surface| surface.holdout) {
+            sums.prepare_holes();
         }
         sums.clear();
     }

@@ -29,6 +29,7 @@ fn picture(mut pixel: impl FnMut(usize, usize) -> [[f32; 3]; 3]) -> Image {
         resolution,
         window: Crop { min: [0, 0], max: resolution },
         frame: Frame::default(),
+        backdrop: Default::default(),
         layers: layers.into(),
         samples: 1,
         mean_samples: 1.0,

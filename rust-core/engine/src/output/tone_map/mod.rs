@@ -5,6 +5,7 @@ mod exposure;
 mod linear;
 mod local;
 mod space;
+mod straight;
 #[cfg(test)]
 mod tests;
 
@@ -19,6 +20,7 @@ use crate::{
     scene::Aov,
 };
 use gonio_simd::{Execution, F, Lanes, Rgb, U, dispatch};
+use straight::{show_lamps, straight};
 
 /// Pixels that are worked on at a time; a multiple of all registers.
 const CHUNK: usize = 4096;
@@ -92,34 +94,60 @@ impl Look {
     }
 }
 
-/// The colour pass as 8-bit RGBA, rows from the top.
+/// The colour pass as 8-bit RGBA, rows from the top: colours are not multiplied by coverage, and what is seen of a sky covers.
 pub fn display(image: &Image, look: &Look, execution: Execution) -> Vec<u8> {
+    let Some(layer) = image.layer(Aov::Color) else { return Vec::new() };
+    let values = straight(image, layer);
+    let mut bytes = bytes(image, &values, look, execution);
+    show_lamps(&mut bytes, &values, u8::MAX);
+    bytes
+}
+
+/// The colour pass over black as 8-bit RGBA, opaque, rows from the top.
+pub fn display_over_black(image: &Image, look: &Look, execution: Execution) -> Vec<u8> {
+    let Some(layer) = image.layer(Aov::Color) else { return Vec::new() };
+    let mut bytes = bytes(image, &layer.values, look, execution);
+    bytes.iter_mut().skip(3).step_by(4).for_each(|coverage| *coverage = u8::MAX);
+    bytes
+}
+
+/// The colour pass as 16-bit RGBA, else as [`display`] has it.
+pub fn display_deep(image: &Image, look: &Look, execution: Execution) -> Vec<u16> {
+    let Some(layer) = image.layer(Aov::Color) else { return Vec::new() };
+    let (values, mut halves) = (straight(image, layer), [[0; CHUNK], [0; CHUNK]]);
+    let mut words = shown(image, &values, look, execution, |values, around, curve, words| {
+        dispatch!(execution, l => words_batch(l, values, around, curve, &mut halves));
+        let both = halves[0].iter().zip(&halves[1]).take(values.len() / 4);
+        words.extend(both.flat_map(|(rg, ba)| [*rg as u16, (*rg >> 16) as u16, *ba as u16, (*ba >> 16) as u16]));
+    });
+    show_lamps(&mut words, &values, u16::MAX);
+    words
+}
+
+fn bytes(image: &Image, values: &[f32], look: &Look, execution: Execution) -> Vec<u8> {
     let mut pixels = [0; CHUNK];
-    shown(image, look, execution, |values, around, curve, bytes| {
+    shown(image, values, look, execution, |values, around, curve, bytes| {
         dispatch!(execution, l => bytes_batch(l, values, around, curve, &mut pixels));
         bytes.extend_from_slice(bytemuck::cast_slice(&pixels[..values.len() / 4]));
     })
 }
 
-/// The colour pass as 16-bit RGBA, rows from the top.
-pub fn display_deep(image: &Image, look: &Look, execution: Execution) -> Vec<u16> {
-    let mut halves = [[0; CHUNK], [0; CHUNK]];
-    shown(image, look, execution, |values, around, curve, words| {
-        dispatch!(execution, l => words_batch(l, values, around, curve, &mut halves));
-        let both = halves[0].iter().zip(&halves[1]).take(values.len() / 4);
-        words.extend(both.flat_map(|(rg, ba)| [*rg as u16, (*rg >> 16) as u16, *ba as u16, (*ba >> 16) as u16]));
-    })
-}
-
-/// Runs `encode` on pieces of the colour pass, the luminance around each pixel (empty unless the operator is local), and the curve.
-fn shown<T>(image: &Image, look: &Look, execution: Execution, mut encode: impl FnMut(&[f32], &[f32], &ToneCurve, &mut Vec<T>)) -> Vec<T> {
+/// Runs `encode` on pieces of RGBA values in the place of the colour pass's, the luminance around each pixel (empty unless the operator is local),
+/// and the curve.
+fn shown<T>(
+    image: &Image,
+    values: &[f32],
+    look: &Look,
+    execution: Execution,
+    mut encode: impl FnMut(&[f32], &[f32], &ToneCurve, &mut Vec<T>),
+) -> Vec<T> {
     let Some(layer) = image.layer(Aov::Color).filter(|layer| layer.values.len() >= 4) else { return Vec::new() };
     let average = || look.adapted.unwrap_or_else(|| log_average(image, execution));
     let curve = ToneCurve::new(look, if look.tone_map.adapts() { average() } else { KEY });
     let around =
         if look.tone_map == ToneMap::Local { local::surroundings(layer, image.size(), curve.scale, execution) } else { Vec::new() };
-    let mut out = Vec::with_capacity(layer.values.len());
-    for (number, values) in layer.values.chunks(4 * CHUNK).enumerate() {
+    let mut out = Vec::with_capacity(values.len());
+    for (number, values) in values.chunks(4 * CHUNK).enumerate() {
         encode(values, around.get(number * CHUNK..).unwrap_or_default(), &curve, &mut out);
     }
     out

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::{
-    film::{Frame, Layer},
+    film::{Backdrop, Frame, Layer},
     scene::Crop,
 };
 
@@ -17,6 +17,7 @@ fn picture(pixels: &[[f32; 3]], width: u32) -> Image {
         resolution,
         window: Crop { min: [0, 0], max: resolution },
         frame: Frame::default(),
+        backdrop: Backdrop::default(),
         layers,
         samples: 1,
         mean_samples: 1.0,

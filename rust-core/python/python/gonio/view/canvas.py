@@ -177,7 +177,7 @@ class Canvas(QWidget):
 
 
 def image_of(picture: Picture) -> QImage:
-    """A picture as Qt has it, over black."""
+    """An opaque picture as Qt has it."""
     width, height = picture.size
     # Qt looks at the bytes as long as the image lives.
     return QImage(picture.tobytes(), width, height, 4 * width, QImage.Format.Format_RGBX8888).copy()

@@ -45,10 +45,10 @@ class Look:
         return ("color", "luminance", "depth", "primId", "instanceId", *lux)
 
     def paint(self, film: Film, *, legend: bool = False) -> Picture:
-        """A film with those passes as pixels."""
+        """A film with those passes as pixels, opaque."""
         if self.show == "picture":
             operator, adapted = self._tone_map(film)
-            return film.picture(operator, self.stops, adapted=adapted)
+            return film.picture(operator, self.stops, adapted=adapted, over_black=True)
         return false_colour(
             film[self.show],
             max=self.scale_max,
