@@ -8,7 +8,7 @@ from pathlib import Path
 import gonio
 import numpy as np
 import pytest
-from small_scenes import FLOOR, QUAD, above, at
+from small_scenes import FLOOR, QUAD, above, at, ball
 
 PEERS = Path(__file__).resolve().parents[1] / "peers"
 sys.path[:0] = [str(PEERS / "caustics"), str(PEERS / "render"), str(PEERS.parent / "validate")]
@@ -124,3 +124,38 @@ def underside(caustics):
 def test_small_surfaces_keep_the_light_of_photons():
     # Discs of photons are half as wide as the board, and reach beyond its edges.
     assert underside("on") == pytest.approx(underside("off"), rel=0.02)
+
+
+def indirect(**settings):
+    """What a ball of glass throws on a floor, as light that is not direct: means of the channels."""
+    scene = gonio.Scene()
+    passes = ["color", "diffuse_direct", "diffuse_indirect", "diffuse_color"]
+    scene.set(**{"width": 32, "height": 32, "samples": 64, "max_bounces": 8, "filter": "box", "filter_width": 1.0, "passes": passes, **settings})
+    grey = scene.add_material("grey", base_color=(0.5, 0.5, 0.5), specular_weight=0.0)
+    scene.add_instance(scene.add_mesh(FLOOR, QUAD, name="floor"), [grey], name="floor")
+    points, triangles = ball(48)
+    glass = scene.add_material("glass", transmission_weight=1.0, specular_ior=1.5, specular_roughness=0.0)
+    mesh = scene.add_mesh((0.4 * points).astype("f4"), triangles, normals=points, name="ball")
+    scene.add_instance(mesh, [glass], transform=at(-1.0, 0.8, 0.0), name="ball")
+    scene.add_light("sphere", (1000.0, 1000.0, 1000.0), radius=0.05, transform=at(-2.5, 2.0, 0.0), name="lamp")
+    scene.add_camera([[1, 0, 0, 0.2], [0, 0, 1, 4], [0, -1, 0, 0], [0, 0, 0, 1]], fov=20)
+    with gonio.Render(scene) as render:
+        assert render.wait()
+        film = render.film()
+    light = {name: np.asarray(film[name], "f8")[..., :3] for name in passes}
+    parts = [(light[f"diffuse_{part}"] * light["diffuse_color"]).mean(axis=-1) for part in ("direct", "indirect")]
+    return parts, light["color"].mean(axis=-1)
+
+
+@pytest.mark.parametrize("integrator", ["path", "light"])
+def test_clamps_limit_what_light_paths_bring(integrator):
+    (plain, bright), _ = indirect(caustics="on", integrator=integrator)
+    limit = 0.05 * bright.max()
+    (direct, clamped), colour = indirect(caustics="on", integrator=integrator, clamp_indirect=limit)
+    assert clamped.max() == pytest.approx(limit, rel=0.05) and (bright > 4.0 * limit).sum() > 4
+    # Direct light stays, and so does what is dimmer.
+    assert direct == pytest.approx(plain, rel=1e-4, abs=1e-6)
+    assert colour == pytest.approx(direct + clamped, rel=1e-3, abs=1e-4)
+    if integrator == "light":
+        (held, other), _ = indirect(caustics="on", integrator="light", clamp_direct=0.5 * plain.max())
+        assert held.max() <= 0.5 * plain.max() * 1.001 and other == pytest.approx(bright, rel=1e-4, abs=1e-6)
