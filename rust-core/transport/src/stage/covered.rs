@@ -11,8 +11,9 @@ use gonio_simd::{Execution, F, Lanes, M, One, U, Vec3};
 
 /// Faces that lie on each other and are looked through, at most.
 const MOST_FACES: usize = 8;
-/// The ray's half length in bounds of the place's error. Rays that leave it start two of these before it.
-pub(crate) const REACH: f32 = 3.0;
+/// How far before the place its ray starts, and how far behind it ends, in bounds of its error. Rays that leave it start two of these before it.
+pub(crate) const BEFORE: f32 = 8.0;
+pub(crate) const BEHIND: f32 = 3.0;
 /// Faces of the same mesh lie on each other only if they face each other: others are neighbours.
 const OPPOSITE: f32 = 0.5;
 
@@ -28,7 +29,7 @@ pub(crate) fn find_covered(tables: &Tables, execution: Execution, count: usize, 
         if met.instance.iter().all(|instance| *instance == NONE) {
             break;
         }
-        let mut passed = vec![Passed::NOTHING; count];
+        let passed = rays.passed.of_first(count);
         for i in 0..count {
             let (face, own) = ([met.instance[i], met.primitive[i]], [places.instance[i], places.primitive[i]]);
             let is_over = face[0] == NONE;
@@ -36,6 +37,7 @@ pub(crate) fn find_covered(tables: &Tables, execution: Execution, count: usize, 
             covered[i] |= u8::from(!is_over && lies_on(tables, face, own, direction));
             if is_over || covered[i] == 1 {
                 rays.t_max[i] = -1.0;
+                passed[i] = Passed::NOTHING;
                 continue;
             }
             let (t, u, v) = (met.t[i], met.u[i], met.v[i]);
@@ -43,7 +45,6 @@ pub(crate) fn find_covered(tables: &Tables, execution: Execution, count: usize, 
             passed[i] = Passed { t, instance: face[0], primitive: face[1], on_edge };
             rays.t_min[i] = f32::from_bits(t.max(f32::MIN_POSITIVE).to_bits() - 1);
         }
-        rays.passed.set(&passed);
     }
     rays.passed.clear();
 }

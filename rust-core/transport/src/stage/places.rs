@@ -3,7 +3,7 @@
 //! A pixel says where on a triangle it is, so nothing needs to be traced to find it: what its path "meets" first is written down as a hit.
 
 use crate::geometry::{NONE, SurfacePoint};
-use crate::stage::covered::{REACH, covered_lanes};
+use crate::stage::covered::{BEFORE, BEHIND, covered_lanes};
 use crate::stage::generate::TileArea;
 use crate::state::flag;
 use crate::state::nearest::NearestHits;
@@ -131,9 +131,9 @@ pub(crate) fn look_at_places<L: Lanes>(
     for register in batch.runs.registers(L::COUNT) {
         let Some(PlaceLanes { instance, triangle, uv: [u, v], inside, .. }) = place_lanes(l, table, batch, register) else { continue };
         let point = tables.geometry.surface_point(l, &tables.geometry.hit_lanes(l, instance, triangle, u, v));
-        let reach = point.error * REACH;
-        let (origin, direction) = (point.geometric_normal.mul_add(reach, point.position), -point.geometric_normal);
-        behind_rays.append(&RayLanes { origin, direction, t_min: l.f(0.0), t_max: reach * 2.0 }, inside, count);
+        let origin = point.geometric_normal.mul_add(point.error * BEFORE, point.position);
+        let (t_min, t_max) = (l.f(0.0), point.error * (BEFORE + BEHIND));
+        behind_rays.append(&RayLanes { origin, direction: -point.geometric_normal, t_min, t_max }, inside, count);
         instance.append(inside, &mut hits.instance, count);
         triangle.append(inside, &mut hits.primitive, count);
         count += inside.count();

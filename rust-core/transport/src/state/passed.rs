@@ -79,10 +79,10 @@ impl PassedHits {
         }
     }
 
-    /// What the first rays have passed, each its own.
-    pub(crate) fn set(&mut self, passed: &[Passed]) {
-        self.begin(0, passed.len());
-        cast_slice_mut(&mut self.items)[..passed.len()].copy_from_slice(passed);
+    /// What the first `count` rays have passed, to be written for each.
+    pub(crate) fn of_first(&mut self, count: usize) -> &mut [Passed] {
+        self.begin(0, count);
+        &mut cast_slice_mut(&mut self.items)[..count]
     }
 
     /// How far some rays had come when they passed something last.
