@@ -221,7 +221,8 @@ impl Block {
             catcher::fill(&mut sums[first * BATCH..], gathered);
         }
         if let Some(channel) = layout.holes {
-            sums[channel * BATCH..(channel + 1) * BATCH].copy_from_slice(&gathered.holes[..BATCH]);
+            // Without holdouts that are shown nothing was counted.
+            sums[channel * BATCH..].iter_mut().zip(&gathered.holes[..]).for_each(|(sum, share)| *sum = *share);
         }
         for (channel, sums) in sums.chunks_exact_mut(BATCH).enumerate() {
             unpack(packed, sums, film.plan.index_channels.contains(&channel));
