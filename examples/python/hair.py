@@ -70,7 +70,7 @@ def main() -> None:
     scene.add_light("rectangle", (2400.0, 2900.0, 3700.0), width=0.2, height=0.5, transform=gonio.look_at((-0.55, -0.1, -0.3), aim), visible=False)
     scene.add_light("rectangle", (2300.0, 2150.0, 1950.0), width=0.22, height=0.22, transform=gonio.look_at((-0.25, 0.35, 0.5), aim), visible=False)
     scene.add_light("disk", lumens=22.0, temperature=4500.0, radius=0.03, spot=(120.0, 1.0), transform=gonio.look_at((0.12, -0.1, -0.35), (0.1, -0.1, -0.7)), visible=False)
-    scene.set(width=600, height=750, samples=64, max_bounces=8)
+    scene.set(width=480, height=600, samples=40, max_bounces=8)
     scene.add_camera(gonio.look_at((0.06, -0.1, 0.62), (0.0, -0.135, 0.0)), fov=26)
     finished(scene, sys.argv[1] if len(sys.argv) > 1 else "hair.png", exposure=0.3)
 
