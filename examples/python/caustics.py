@@ -51,7 +51,7 @@ def main() -> None:
     scene.add_light("sphere", lumens=420.0, temperature=4200.0, radius=0.006, transform=at(-0.4, 0.3, -0.3), visible=False)
     scene.add_light("dome", (0.7, 0.95, 1.5), visible=False)
     scene.set(width=960, height=600, samples=192, caustics="on", max_bounces=14)
-    scene.add_camera(gonio.look_at((0.12, 0.36, 0.7), (0.045, 0.035, 0.04)), fov=25)
+    scene.add_camera(gonio.look_at((0.12, 0.36, 0.72), (0.045, 0.058, 0.04)), fov=27)
     finished(scene, sys.argv[1] if len(sys.argv) > 1 else "caustics.png", exposure=0.3)
 
 
