@@ -72,6 +72,20 @@ def furnish(scene: gonio.Scene) -> None:
     scene.add_instance(shapes.lathe(scene, bowl), [blue], transform=shapes.at(-1.05, 0.74, 3.75))
 
 
+def outside(scene: gonio.Scene) -> None:
+    """A lawn one floor below, and trees at its end."""
+    lawn = scene.add_material(base_color=(0.13, 0.19, 0.06), specular_weight=0.0)
+    shapes.quad(scene, [(-300, -3.2, DEPTH + 1), (300, -3.2, DEPTH + 1), (300, -3.2, 400), (-300, -3.2, 400)], lawn)
+    random = numpy.random.default_rng(3)
+    crown = scene.add_points(random.normal(0.0, 0.33, (40, 3)).astype("f4"), random.uniform(0.5, 0.9, 40).astype("f4"))
+    leaves = scene.add_material(base_color=(0.07, 0.13, 0.035), specular_weight=0.0)
+    for x in numpy.arange(-70.0, 71.0, 7.0):
+        size, z = random.uniform(5.0, 8.0), random.uniform(70.0, 95.0)
+        place = numpy.diag([size, 0.85 * size, size, 1.0])
+        place[:3, 3] = x + random.uniform(-2, 2), -1.5 + 0.3 * size, z
+        scene.add_instance(points=crown, materials=[leaves], transform=place)
+
+
 def finished(scene: gonio.Scene) -> gonio.Film:
     """The film of the whole render."""
     with gonio.Render(scene) as render:
@@ -106,6 +120,7 @@ def main() -> None:
         print(f"{place:.1f} m from the window: daylight factor {factor:.1f} %")
     scene = room()
     furnish(scene)
+    outside(scene)
     day = gonio.daylight(*PLACE, "2025-09-21T15:10+02:00", ground=0.2)
     print(day)
     scene.add_daylight(day, up="Y")
