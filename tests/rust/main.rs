@@ -26,6 +26,7 @@ mod motion_vectors;
 mod moving_fibres;
 mod observers;
 mod passes;
+mod ranges;
 mod recompile;
 mod rooms;
 mod whitted;

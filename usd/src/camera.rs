@@ -88,6 +88,9 @@ fn lens<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, focal_length: f64
     (0.5 * focal_length * UNITS_PER_TENTH * context.metres_per_unit / f_number, focus_distance)
 }
 
+/// The largest exposure scale: it shows starlight in full daylight's place, and leaves colours within single precision.
+const MOST_EXPOSURE: f32 = 1e8;
+
 /// The camera's linear exposure scale; versions of the package without it know `exposure` alone.
 fn exposure<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> f32 {
     if !prim.has_authored("exposure") && !prim.has_authored_prefix("exposure:") {
@@ -104,11 +107,12 @@ fn exposure<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> f32 {
     };
     let scale = context.attempt(&prim.origin(), "the exposure cannot be evaluated", computed()).flatten();
     let scale = scale.unwrap_or_else(|| context.get::<f32>(prim, "exposure").unwrap_or(0.0).exp2());
-    if scale.is_finite() && scale >= 0.0 {
+    if (0.0..=MOST_EXPOSURE).contains(&scale) {
         return scale;
     }
-    context.warn(&prim.origin(), format!("the exposure scale is {scale}, expected a number from 0 on; 1 is used"));
-    1.0
+    let held = if scale > MOST_EXPOSURE { MOST_EXPOSURE } else { 1.0 };
+    context.warn(&prim.origin(), format!("the exposure scale is {scale}, expected a number from 0 to {MOST_EXPOSURE:e}; {held:e} is used"));
+    held
 }
 
 /// The name that USD gives the main one of a stage's cameras; empty where there are no two to choose from.

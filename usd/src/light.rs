@@ -108,6 +108,27 @@ pub(crate) fn input<'py, T: FromValue>(context: &mut Context<'_, 'py>, prim: &Pr
     context.get(prim, if is_old { name } else { &full_name })
 }
 
+/// An input of a light that is a number; what is none is told, and the default used.
+fn number<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, name: &str, default: f32) -> f32 {
+    let found: f32 = input(context, prim, name).unwrap_or(default);
+    if found.is_finite() {
+        return found;
+    }
+    context.warn(&prim.origin(), format!("{name} is {found}, expected a number; {default} is used"));
+    default
+}
+
+/// The same of a colour, which has no part below 0.
+fn numbers<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, name: &str, default: [f32; 3]) -> [f32; 3] {
+    let found: [f32; 3] = input(context, prim, name).unwrap_or(default);
+    if found.iter().all(|x| x.is_finite() && *x >= 0.0) {
+        return found;
+    }
+    let held = found.map(|x| if x.is_finite() { x.max(0.0) } else { 0.0 });
+    context.warn(&prim.origin(), format!("{name} is {found:?}, expected numbers of zero or more; {held:?} is used"));
+    held
+}
+
 /// A length, which must be a finite number.
 fn length<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, name: &str, default: f64) -> f64 {
     let found: f64 = input(context, prim, name).unwrap_or(default);
@@ -159,8 +180,7 @@ pub(crate) fn tint<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> [f3
 
 /// `intensity · 2^exposure · color`, times the colour of the temperature if that is enabled.
 pub(crate) fn radiance<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<[f32; 3]> {
-    let intensity: f32 = input(context, prim, "intensity").unwrap_or(1.0);
-    let exposure: f32 = input(context, prim, "exposure").unwrap_or(0.0);
+    let (intensity, exposure) = (number(context, prim, "intensity", 1.0), number(context, prim, "exposure", 0.0));
     let strength = intensity * exposure.exp2();
     let radiance = tint(context, prim).map(|x| strength * x);
     if radiance.iter().all(|x: &f32| x.is_finite()) {
@@ -172,9 +192,7 @@ pub(crate) fn radiance<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) ->
 }
 
 fn colour<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> [f32; 3] {
-    let Some([r, g, b]) = input::<[f32; 3]>(context, prim, "color") else {
-        return [1.0; 3];
-    };
+    let [r, g, b] = numbers(context, prim, "color", [1.0; 3]);
     let space = prim.attribute("inputs:color").map(|attribute| stated_colour_space(&attribute)).unwrap_or_default();
     match to_linear_rec709([r, g, b, 1.0], &space) {
         Ok([r, g, b, _]) => [r, g, b],
@@ -187,7 +205,8 @@ fn colour<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> [f32; 3] {
 
 /// The colour of a black body as UsdLux computes it: of luminance 1, and 6500 K is not exactly white.
 fn temperature<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> [f32; 3] {
-    let kelvin: f32 = input(context, prim, "colorTemperature").unwrap_or(6500.0);
+    // The library's function reads beyond its table where the temperature is no number, and takes the process with it.
+    let kelvin = number(context, prim, "colorTemperature", 6500.0);
     let rgb = Module::UsdLux.item(context.py, "BlackbodyTemperatureAsRgb").and_then(|function| function.call1((kelvin,)));
     let rgb = context.attempt(&prim.origin(), "the colour temperature cannot be evaluated", rgb);
     rgb.and_then(|rgb| <[f32; 3]>::from_value(&rgb)).unwrap_or([1.0; 3])
@@ -230,14 +249,13 @@ fn shaping<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, shape: &LightS
         }
         return Shaping::default();
     }
-    let angle: Option<f32> = input(context, prim, "shaping:cone:angle").map(|angle: f32| angle.max(0.0));
-    let softness: f32 = input(context, prim, "shaping:cone:softness").unwrap_or(0.0);
-    let focus: f32 = input(context, prim, "shaping:focus").unwrap_or(0.0);
+    let angle = number(context, prim, "shaping:cone:angle", FULL_CONE).max(0.0);
+    let (softness, focus) = (number(context, prim, "shaping:cone:softness", 0.0), number(context, prim, "shaping:focus", 0.0));
     Shaping {
-        cone_angle_deg: angle.filter(|angle| *angle < FULL_CONE),
+        cone_angle_deg: (angle < FULL_CONE).then_some(angle),
         cone_softness: softness.clamp(0.0, 1.0),
         focus: focus.max(0.0),
-        focus_tint: input(context, prim, "shaping:focusTint").unwrap_or([0.0; 3]),
+        focus_tint: numbers(context, prim, "shaping:focusTint", [0.0; 3]),
     }
 }
 

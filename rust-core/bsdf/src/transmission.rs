@@ -32,7 +32,8 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
         // From inside, the tint of a whole lobe stays off: it colours what comes from above.
         let interface = match self.surface.switches.tint {
             Tint::Normal => {
-                let f0 = (tint * normal).saturate();
+                // The making up for rough glass knows no interface that reflects more than its index has it.
+                let f0 = tint.saturate() * normal;
                 Interface {
                     eta: base.bending,
                     f0: f0 * scale,

@@ -1,6 +1,6 @@
 //! Inputs of nodes: constants in the renderer's colours and units, or what other nodes give.
 
-use super::emit::{colour, component, scalar};
+use super::emit::{clamp, colour, component, constant_scalar, scalar};
 use super::network::{Network, Shader};
 use super::neutral::{Said, Source, Value};
 use super::value::to_linear_rec709;
@@ -70,6 +70,15 @@ impl Network<'_> {
     /// A scalar input, or its default.
     pub(in crate::material) fn scalar(&mut self, shader: &Shader, name: &str, default: f32) -> Input {
         self.input(shader, name).map_or(scalar(default), |input| component(input, 0))
+    }
+
+    /// A scalar input that is a share of a whole, held within 0 to 1; says so where it is stated beyond.
+    pub(in crate::material) fn share(&mut self, shader: &Shader, name: &str, default: f32) -> Input {
+        let input = self.scalar(shader, name, default);
+        if let Some(found) = constant_scalar(input).filter(|found| !(0.0..=1.0).contains(found)) {
+            self.warn(shader, format!("input '{name}' is {found}, outside 0 to 1; {} is used", found.clamp(0.0, 1.0)));
+        }
+        clamp(&mut self.graph, input, scalar(0.0), scalar(1.0))
     }
 
     /// A colour or vector input, or its default.

@@ -5,6 +5,9 @@ use crate::light::{self, LightTexture};
 use crate::scene::{Light, LightFilter, Slide, Transform};
 use std::sync::Arc;
 
+/// The most that a filter may multiply light by.
+const MOST_FACTOR: f32 = 1e6;
+
 /// The filters of a scene's lights.
 #[derive(Clone, Debug, Default)]
 pub(super) struct CompiledFilters {
@@ -23,6 +26,11 @@ impl CompiledFilters {
             let gate: Vec<light::Filter> = light.filters.iter().filter_map(|filter| compiled(filter, placed)).collect();
             if gate.len() < light.filters.len() {
                 diagnostics.push(Diagnostic::warning(&light.origin, "a filter before the light is flat or not of numbers; it is left out"));
+            }
+            let beyond = |filter: &LightFilter| filter.factor.iter().any(|x| !(0.0..=MOST_FACTOR).contains(x));
+            if let Some(filter) = light.filters.iter().find(|filter| beyond(filter)) {
+                let problem = format!("a filter's factor is {:?}, outside 0 to {MOST_FACTOR}; it is held there", filter.factor);
+                diagnostics.push(Diagnostic::warning(&light.origin, problem));
             }
             self.gates.push(gate);
             self.sources.push((light.filters.clone(), placed.columns));
@@ -57,9 +65,9 @@ fn compiled(filter: &LightFilter, placed: &Transform) -> Option<light::Filter> {
     Some(light::Filter {
         from_world: std::array::from_fn(|row| std::array::from_fn(|column| from_world.columns[column][row] as f32)),
         slide,
-        missed: filter.missed,
+        missed: filter.missed.map(|x| x.clamp(0.0, MOST_FACTOR)),
         inverted: filter.inverted,
-        factor: filter.factor,
-        density: filter.density,
+        factor: filter.factor.map(|x| x.clamp(0.0, MOST_FACTOR)),
+        density: filter.density.clamp(0.0, 1.0),
     })
 }

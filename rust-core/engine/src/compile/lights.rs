@@ -27,6 +27,9 @@ use std::sync::Arc;
 /// Emissive triangles beyond this many are found by scattered rays alone: a table of more would cost more than it saves.
 const MOST_EMISSIVE_TRIANGLES: usize = 200_000;
 
+/// The most that light off the axis may be of that along it.
+const MOST_TINT: f32 = 1e3;
+
 /// A light table and what it was laid out from.
 #[derive(Clone, Debug, Default)]
 pub(super) struct KeptLights {
@@ -224,7 +227,7 @@ pub(super) fn record(light: &Light, part: &Part, texture: Option<u32>, diagnosti
             cone_angle: shaping.cone_angle_deg.map_or(f32::INFINITY, f32::to_radians),
             softness: shaping.cone_softness,
             focus: shaping.focus,
-            focus_tint: shaping.focus_tint,
+            focus_tint: shaping.focus_tint.map(|x| x.clamp(0.0, MOST_TINT)).map(finite),
         },
         spot: light.spot.map(|spot| Spot { angle: spot.angle_deg.to_radians(), blend: spot.blend, stretch: spot.stretch }),
         spread: if light.spread_deg < 180.0 { light.spread_deg.to_radians() } else { std::f32::consts::PI },
@@ -240,6 +243,10 @@ pub(super) fn record(light: &Light, part: &Part, texture: Option<u32>, diagnosti
         opening: part.opening,
         ..LightRecord::new(kind)
     }
+}
+
+fn finite(value: f32) -> f32 {
+    if value.is_finite() { value } else { 0.0 }
 }
 
 /// How a light falls with distance.
@@ -275,6 +282,9 @@ fn report_unused(light: &Light, kind: LightKind, diagnostics: &mut Vec<Diagnosti
     }
     if light.spread_deg < 180.0 && !kind.is_flat() {
         warn("only rectangles, disks and ellipses have a spread; it is ignored");
+    }
+    if light.shaping.focus_tint.iter().any(|x| !(0.0..=MOST_TINT).contains(x)) {
+        warn(&format!("its focus tint is {:?}, outside 0 to {MOST_TINT}; it is held there", light.shaping.focus_tint));
     }
     if light.goniogram.is_some() && kind.is_infinite() {
         warn("lights at infinity have no goniogram; it is ignored");

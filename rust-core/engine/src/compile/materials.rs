@@ -1,18 +1,20 @@
 //! Materials: parameter blocks and programs.
 
 mod displacement;
+mod parameters;
 mod program;
 
 use super::{measured::CompiledMeasured, standard_passes, textures::CompiledTextures};
 use crate::{
     bsdf::{Bump, Closure as Single, Distribution, Fuzz, Metal, SubsurfaceMethod, Surface, Switches, parameter},
     error::{Diagnostic, Error, Result},
-    graph::{Program, Wanted},
+    graph::{Program, Wanted, WantedOutput},
     scene::{self, Closure, FibreDirection, Input, Material, Model, NodeId, Origin, Scene},
     transport::{MaterialTable, Mix, ShaderOutput, ShaderOutputs, Shading, SurfaceMaterial},
 };
 pub(super) use displacement::{displaces, program, pruned};
 use gonio_nodes::{Channel, Operand, Value};
+use parameters::{Parameters, WEIGHT, tell_weights};
 use program::{CompiledGraph, asks_for_ray, compile_graph, sampled_program};
 
 /// Reflectance of surfaces without a material, and of measured ones without a measurement.
@@ -36,6 +38,7 @@ pub(super) fn compile(
             return Err(Error::scene(&material.origin, problem));
         }
         let graph = compile_graph(material, textures, names)?;
+        tell_weights(material, &graph, diagnostics);
         for closure in &material.closures {
             table.surfaces.push(surface(material, closure, measured, &graph, diagnostics));
         }
@@ -82,14 +85,15 @@ fn shader_outputs(material: &Material, graph: &CompiledGraph, first: usize) -> S
 
 /// A material of several closures, or of one with a weight.
 fn mix(closures: &[Closure], first: u32, graph: &CompiledGraph, surfaces: &[SurfaceMaterial]) -> Mix {
-    let outputs = closures.iter().enumerate().map(|(i, closure)| (i * 3, 3, graph.code.value(closure.weight))).collect();
+    let weight = |(i, value): (usize, Value)| WantedOutput { offset: i * 3, width: 3, value, range: Some(WEIGHT) };
+    let outputs = closures.iter().map(|closure| graph.code.value(closure.weight)).enumerate().map(weight).collect();
     let program = Program::new(&graph.code, &Wanted { outputs, uv: graph.uv, ..Wanted::default() });
     let own = &surfaces[first as usize..];
     let emissive = own.iter().any(|surface| surface.emissive);
     let even_emission = even_emission(closures, own, graph);
     let known = own.iter().all(|surface| !surface.emissive || surface.even_emission.is_some() || surface.glow.is_some());
     let glow = if emissive && even_emission.is_none() && known {
-        let outputs = closures.iter().enumerate().map(|(i, closure)| (i * 3, 3, graph.sampled.value(closure.weight))).collect();
+        let outputs = closures.iter().map(|closure| graph.sampled.value(closure.weight)).enumerate().map(weight).collect();
         sampled_program(graph, outputs)
     } else {
         None
@@ -110,18 +114,18 @@ fn mix(closures: &[Closure], first: u32, graph: &CompiledGraph, surfaces: &[Surf
 fn even_emission(closures: &[Closure], surfaces: &[SurfaceMaterial], graph: &CompiledGraph) -> Option<[f32; 3]> {
     let mut sum = [0.0; 3];
     for (closure, surface) in closures.iter().zip(surfaces).filter(|(_, surface)| surface.emissive) {
-        let (weight, glow) = (constant(&graph.sampled.value(closure.weight))?, surface.even_emission?);
-        (0..3).for_each(|c| sum[c] += weight[c].max(0.0) * glow[c]);
+        let (weight, glow) = (constant(&graph.sampled.value(closure.weight), WEIGHT)?, surface.even_emission?);
+        (0..3).for_each(|c| sum[c] += weight[c] * glow[c]);
     }
     Some(sum)
 }
 
-/// A colour that is the same everywhere.
-fn constant(value: &[Operand; 4]) -> Option<[f32; 3]> {
+/// A colour that is the same everywhere, within a range.
+fn constant(value: &[Operand; 4], [low, high]: [f32; 2]) -> Option<[f32; 3]> {
     let mut colour = [0.0; 3];
     for (component, operand) in colour.iter_mut().zip(value) {
         let Operand::Constant(number) = operand else { return None };
-        *component = finite(*number);
+        *component = if number.is_nan() { low } else { number.clamp(low, high) };
     }
     Some(colour)
 }
@@ -139,35 +143,11 @@ fn surface(
         grey.set_colour("base_color", DEFAULT_REFLECTANCE);
         return surface(material, &grey, &CompiledMeasured::default(), graph, diagnostics);
     }
-    let mut constants = parameter::DEFAULTS;
-    if measured.is_some() {
-        constants[parameter::BASE_COLOR..parameter::BASE_COLOR + 3].fill(1.0);
-    }
-    let mut varying = [false; parameter::COUNT];
-    let mut sampled = Vec::new();
     let switches = switches_of(closure);
-    let mut wanted = Wanted { free_normal: switches.bump == Bump::Cycles, uv: graph.uv, ..Wanted::default() };
+    let Parameters { constants, varying, outputs, sampled } =
+        Parameters::new(material, closure, (&switches, measured.is_some()), graph, diagnostics);
+    let mut wanted = Wanted { outputs, free_normal: switches.bump == Bump::Cycles, uv: graph.uv, ..Wanted::default() };
     let code = &graph.code;
-    for (name, input) in &closure.parameters {
-        let Some(parameter) = parameter::find(name) else {
-            diagnostics.push(Diagnostic::warning(&material.origin, format!("surface parameter '{name}' is not known; it is ignored")));
-            continue;
-        };
-        let places = parameter.offset..parameter.offset + parameter.width();
-        let whole = code.value(*input);
-        let value = &whole[..parameter.width()];
-        // A graph may give constants, too.
-        for (place, operand) in places.clone().zip(value) {
-            if let Operand::Constant(value) = operand {
-                constants[place] = finite(*value);
-            }
-        }
-        if value.iter().any(|operand| matches!(operand, Operand::Variable(_))) {
-            varying[places].fill(true);
-            wanted.outputs.push((parameter.offset, parameter.width(), whole));
-            sampled.push((parameter.offset, parameter.width(), graph.sampled.value(*input)));
-        }
-    }
     let direction = |node: Option<NodeId>| node.map(|node| code.value(Input::Node(node, Channel::Rgb)));
     wanted.normal = direction(closure.normal);
     wanted.smooth_normal = direction(material.normal);
@@ -209,16 +189,16 @@ fn surface(
 
 /// What a surface emits for light sampling: the same everywhere, or what a program computes of the parameters that vary, given as light sampling
 /// has them.
-fn glow(surface: &Surface, varying: Vec<(usize, usize, Value)>, graph: &CompiledGraph) -> (Option<[f32; 3]>, Option<Box<Program>>) {
-    let colour = varying.iter().find(|(offset, ..)| *offset == parameter::EMISSION_COLOR);
+fn glow(surface: &Surface, varying: Vec<WantedOutput>, graph: &CompiledGraph) -> (Option<[f32; 3]>, Option<Box<Program>>) {
+    let colour = varying.iter().find(|output| output.offset == parameter::EMISSION_COLOR);
     let plain = || Some([0, 1, 2].map(|c| surface.constants[parameter::EMISSION_COLOR + c]));
     let covered = surface.covers_emission();
-    let even = colour.map_or_else(plain, |(_, _, value)| constant(value)).filter(|_| !covered && !surface.lobes.cut_out);
+    let even = colour.map_or_else(plain, |output| constant(&output.value, parameter::LIGHT)).filter(|_| !covered && !surface.lobes.cut_out);
     if !surface.lobes.emission || even.is_some() {
         return (even, None);
     }
     let wanted = |offset: usize| covered || offset == parameter::EMISSION_COLOR || offset == parameter::OPACITY;
-    let outputs = varying.into_iter().filter(|(offset, ..)| wanted(*offset)).collect();
+    let outputs = varying.into_iter().filter(|output| wanted(output.offset)).collect();
     (None, sampled_program(graph, outputs))
 }
 

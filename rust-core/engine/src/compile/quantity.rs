@@ -2,6 +2,7 @@
 
 use super::goniograms::CompiledGoniograms;
 use crate::{
+    bsdf::parameter::LIGHT,
     colour::luminance,
     error::Diagnostic,
     light::{FarField, LightKind, LightRecord, Shaping, size_factor},
@@ -75,9 +76,25 @@ pub(super) fn apply(
         diagnostics.push(Diagnostic::warning(&light.origin, format!("{problem}; the light stays dark")));
         0.0
     });
+    let mut most = 0.0f64;
     for record in records.iter_mut() {
-        record.radiance = record.radiance.map(|x| (f64::from(x) * factor * dimming) as f32);
+        record.radiance = record.radiance.map(|x| {
+            let strength = f64::from(x) * factor * dimming;
+            most = if strength.is_finite() { most.max(strength.abs()) } else { f64::INFINITY };
+            held(strength)
+        });
     }
+    let [_, limit] = LIGHT;
+    if most > f64::from(limit) {
+        let problem = format!("its strength is {most:e} or no number, where sums end at {limit:e}; it is held there, or stays dark");
+        diagnostics.push(Diagnostic::warning(&light.origin, problem));
+    }
+}
+
+/// Strength within what sums can hold; none where it is no number.
+fn held(strength: f64) -> f32 {
+    let [_, limit] = LIGHT;
+    if strength.is_nan() { 0.0 } else { (strength as f32).clamp(-limit, limit) }
 }
 
 /// Radiance in cd/m² (cd for points and openings) that gives records of luminance 1 the quantity.

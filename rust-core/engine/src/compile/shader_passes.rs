@@ -2,7 +2,7 @@
 
 use crate::{
     film::ChannelLayout,
-    graph::{Program, Wanted},
+    graph::{Program, Wanted, WantedOutput},
     scene::{Aov, Settings, ShaderValue},
     transport::{MaterialTable, ShaderPasses},
 };
@@ -22,8 +22,8 @@ pub(super) fn programs(materials: &MaterialTable, settings: &Settings) -> Shader
             let Some(name) = settings.shader_passes.get(usize::from(number)) else { continue };
             let offset = layout.shader_column(*aov);
             outputs.extend(material.outputs.iter().filter(|output| output.name == *name).map(|output| match kind {
-                ShaderValue::Color => (offset, 3, output.color),
-                ShaderValue::Number => (offset, 1, output.value),
+                ShaderValue::Color => WantedOutput { offset, width: 3, value: output.color, range: None },
+                ShaderValue::Number => WantedOutput { offset, width: 1, value: output.value, range: None },
             }));
         }
         if !outputs.is_empty() {

@@ -10,7 +10,7 @@ use super::{
 use crate::geometry::GeometryTable;
 use gonio_image::texture::TextureTable;
 use gonio_nodes::Registers;
-use gonio_simd::{Lanes, Vec3};
+use gonio_simd::{F, Lanes, Vec3};
 
 /// Runs a program over the first `count` hits of a chunk: fills `outputs`, and bends the shading normals if it says so.
 #[inline(always)]
@@ -36,17 +36,28 @@ pub fn evaluate<L: Lanes>(
             #[inline(always)]
             |step, io| run_hit_step(l, step, &tables, (around, &mut scratch.nearby, &mut scratch.tiles), io),
         );
-        let sources = program.outputs.iter().flat_map(|output| &output.sources);
-        for (place, source) in sources.enumerate() {
+        let sources = program.outputs.iter().flat_map(|output| output.sources.iter().map(|source| (source, output.range)));
+        for (place, (source, range)) in sources.enumerate() {
             let column = &mut outputs.values[place * CHUNK..(place + 1) * CHUNK];
             for at in (0..len).step_by(L::COUNT) {
-                scratch.registers.read(l, *source, at).store(column, first + at);
+                let value = scratch.registers.read(l, *source, at);
+                let value = match range {
+                    Some(range) => held(value, range),
+                    None => value,
+                };
+                value.store(column, first + at);
             }
         }
         for at in (0..len).step_by(L::COUNT) {
             store_directions(l, program, points, &scratch.registers, first, at);
         }
     }
+}
+
+/// A value within a range; the least where it is no number.
+#[inline(always)]
+fn held<L: Lanes>(value: F<L>, [low, high]: [f32; 2]) -> F<L> {
+    value.ge(low).select(value.min(high), value.lanes().f(low))
 }
 
 /// Puts the tangent, the coat's normal and the bent normal of the piece's entry `at` in place.

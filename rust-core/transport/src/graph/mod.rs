@@ -16,4 +16,4 @@ pub use gonio_nodes::{CHUNK, Source};
 pub use hit_step::HitStep;
 pub use nearby::Occlusion;
 pub use nearby_rays::Around;
-pub use program::{Direction, Output, Program, Wanted};
+pub use program::{Direction, Output, Program, Wanted, WantedOutput};

@@ -10,13 +10,28 @@ pub struct Output {
     pub offset: usize,
     /// Where its components are found: 1 or 3.
     pub sources: Vec<Source>,
+    /// What it is held within; what is no number becomes the least.
+    pub range: Option<[f32; 2]>,
+}
+
+/// A parameter that is asked of a graph.
+#[derive(Clone, Copy, Debug)]
+pub struct WantedOutput {
+    /// First place in the parameter block.
+    pub offset: usize,
+    /// How many places.
+    pub width: usize,
+    /// What the graph has for it.
+    pub value: Value,
+    /// What it is held within, if anything.
+    pub range: Option<[f32; 2]>,
 }
 
 /// What is asked of a graph.
 #[derive(Clone, Debug, Default)]
 pub struct Wanted {
-    /// Parameters: the first place in the parameter block, how many, and their value.
-    pub outputs: Vec<(usize, usize, Value)>,
+    /// Parameters.
+    pub outputs: Vec<WantedOutput>,
     /// The shading normal.
     pub normal: Option<Value>,
     /// The normal that it is bent from; the mesh's without it.
@@ -65,13 +80,16 @@ impl Program {
     /// The part of a graph that computes what is wanted.
     pub fn new(code: &Code<HitStep>, wanted: &Wanted) -> Self {
         let directions = [wanted.normal, wanted.smooth_normal, wanted.coat_normal, wanted.tangent];
-        let parameters = wanted.outputs.iter().flat_map(|(_, width, value)| value.iter().take(*width));
+        let parameters = wanted.outputs.iter().flat_map(|output| output.value.iter().take(output.width));
         let operands: Vec<Operand> =
             parameters.chain(directions.iter().flatten().flat_map(|value| value.iter().take(3))).copied().collect();
         let (steps, sources) = gonio_nodes::Program::new(code, &operands);
         let mut sources = sources.into_iter();
         let outputs = wanted.outputs.iter();
-        let outputs = outputs.map(|(offset, width, _)| Output { offset: *offset, sources: sources.by_ref().take(*width).collect() });
+        let outputs = outputs.map(|WantedOutput { offset, width, range, .. }| {
+            let sources = sources.by_ref().take(*width).collect();
+            Output { offset: *offset, sources, range: *range }
+        });
         let outputs = outputs.collect();
         let mut direction = |value: Option<Value>| value.map(|_| std::array::from_fn(|_| sources.next().unwrap_or(Source::Constant(0.0))));
         let [normal, smooth_normal, coat_normal, tangent] = directions.map(&mut direction);

@@ -31,7 +31,7 @@ pub(super) fn behind(network: &mut Network<'_>, shader: &Shader, input: &str) ->
 }
 
 fn mixed(network: &mut Network<'_>, shader: &Shader, [under, over, share]: [&str; 3], default: f32) -> Vec<Closure> {
-    let share = network.scalar(shader, share, default);
+    let share = network.share(shader, share, default);
     let rest = subtract(&mut network.graph, scalar(1.0), share);
     let mut closures = Vec::new();
     for (input, weight) in [(under, rest), (over, share)] {
@@ -46,7 +46,7 @@ fn mixed(network: &mut Network<'_>, shader: &Shader, [under, over, share]: [&str
 }
 
 fn lambert(network: &mut Network<'_>, shader: &Shader) -> Closure {
-    let (weight, base) = (network.scalar(shader, "Kd", 0.8), network.colour(shader, "Kd_color", [1.0; 3]));
+    let (weight, base) = (network.share(shader, "Kd", 0.8), network.colour(shader, "Kd_color", [1.0; 3]));
     let base = multiply(&mut network.graph, base, weight);
     diffuse(base, scalar(0.0))
 }
@@ -61,20 +61,20 @@ fn surface(network: &mut Network<'_>, shader: &Shader) -> Vec<Closure> {
         let radiance = emission(network, &edf);
         closures.push(shining(radiance));
     }
-    let opacity = network.scalar(shader, "opacity", 1.0);
+    let opacity = network.share(shader, "opacity", 1.0);
     with_opacity(network, closures, opacity)
 }
 
 fn unlit(network: &mut Network<'_>, shader: &Shader) -> Vec<Closure> {
     let (emission, tint) = (network.scalar(shader, "emission", 1.0), network.colour(shader, "emission_color", [1.0; 3]));
     let mut closures = vec![shining(multiply(&mut network.graph, tint, emission))];
-    let passed = network.scalar(shader, "transmission", 0.0);
+    let passed = network.share(shader, "transmission", 0.0);
     if !is_constant(passed, 0.0) {
         let mut clear = straight(passed);
         clear.set_input("base_color", network.colour(shader, "transmission_color", [1.0; 3]));
         closures.push(clear);
     }
-    let opacity = network.scalar(shader, "opacity", 1.0);
+    let opacity = network.share(shader, "opacity", 1.0);
     with_opacity(network, closures, opacity)
 }
 

@@ -30,7 +30,7 @@ pub(super) fn sum(network: &mut Network<'_>, shader: &Shader) -> Sum {
     };
     match split(&shader.id).0 {
         "mix" => {
-            let share = network.scalar(shader, "mix", 0.0);
+            let share = network.share(shader, "mix", 0.0);
             let (under, over) = (inner(network, "bg"), inner(network, "fg"));
             mixed(network, under, over, share)
         }

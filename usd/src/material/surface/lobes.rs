@@ -76,8 +76,7 @@ pub(super) fn lobe(network: &mut Network<'_>, shader: &Shader) -> (Lobe, Input) 
     if &*shader.id == HAIR {
         return (Lobe { closure, kind }, scalar(0.0));
     }
-    let weight = network.scalar(shader, "weight", 1.0);
-    closure.weight = clamp(&mut network.graph, weight, scalar(0.0), scalar(1.0));
+    closure.weight = network.share(shader, "weight", 1.0);
     closure.tangent = direction(network, shader, "tangent");
     let reflected = match &*shader.id {
         "ND_sheen_bsdf" => Some(sheen_albedo(network, &closure)),

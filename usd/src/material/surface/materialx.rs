@@ -20,6 +20,9 @@ impl Surface<'_, '_> {
     fn scalar(&mut self, name: &str, default: f32) -> Input {
         self.network.scalar(self.shader, name, default)
     }
+    fn share(&mut self, name: &str, default: f32) -> Input {
+        self.network.share(self.shader, name, default)
+    }
     fn colour(&mut self, name: &str, default: [f32; 3]) -> Input {
         self.network.colour(self.shader, name, default)
     }
@@ -83,7 +86,7 @@ pub(super) fn convert(network: &mut Network<'_>, shader: &Shader) -> Option<Clos
 /// OpenPBR 1.1: the block's own model.
 fn open_pbr_surface(surface: &mut Surface<'_, '_>) {
     surface.closure.model = Model::OpenPbr;
-    let (weight, base) = (surface.scalar("base_weight", 1.0), surface.colour("base_color", [0.8; 3]));
+    let (weight, base) = (surface.share("base_weight", 1.0), surface.colour("base_color", [0.8; 3]));
     surface.product("base_color", base, weight);
     surface.scalars(&[
         ("diffuse_roughness", "base_diffuse_roughness", 0.0),
@@ -142,12 +145,11 @@ fn standard_surface_100(surface: &mut Surface<'_, '_>) {
 
 fn fill_standard_surface(surface: &mut Surface<'_, '_>, base_weight: f32, base_color: f32) {
     surface.closure.model = Model::StandardSurface;
-    let (weight, base) = (surface.scalar("base", base_weight), surface.colour("base_color", [base_color; 3]));
+    let (weight, base) = (surface.share("base", base_weight), surface.colour("base_color", [base_color; 3]));
     surface.product("base_color", base, weight);
     surface.scalars(&[
         ("diffuse_roughness", "diffuse_roughness", 0.0),
         ("metalness", "metalness", 0.0),
-        ("specular_scale", "specular", 1.0),
         ("specular_roughness", "specular_roughness", 0.2),
         ("specular_anisotropy", "specular_anisotropy", 0.0),
         ("specular_rotation", "specular_rotation", 0.0),
@@ -175,7 +177,8 @@ fn fill_standard_surface(surface: &mut Surface<'_, '_>, base_weight: f32, base_c
     ]);
     surface.closure.set("coat_darkening", 0.0);
     // The metal's edge tint is specular · specular_color, its whole lobe has the weight 1.
-    let (specular, tint) = (surface.scalar("specular", 1.0), surface.colour("specular_color", [1.0; 3]));
+    let (specular, tint) = (surface.share("specular", 1.0), surface.colour("specular_color", [1.0; 3]));
+    surface.closure.set_input("specular_scale", specular);
     surface.product("metal_edge_tint", tint, specular);
     let depth = surface.scalar("transmission_depth", 0.0);
     surface.length("transmission_depth", depth);

@@ -39,7 +39,7 @@ pub(super) fn convert_as(network: &mut Network<'_>, shader: &Shader, names: Name
         specular_workflow(network, shader, &mut closure, ior);
     } else {
         // The metal's colour holds at all angles: F90 = F0.
-        closure.set_input("metalness", network.scalar(shader, "metallic", 0.0));
+        closure.set_input("metalness", network.share(shader, "metallic", 0.0));
         closure.set_input("metal_edge_tint", diffuse);
     }
     // Without a step of the index there is no interface that could reflect.
@@ -84,7 +84,7 @@ fn specular_workflow(network: &mut Network<'_>, shader: &Shader, closure: &mut C
 /// What opacity lacks goes straight through what the interface does not reflect, and leaves the reflection; with a threshold or the mode
 /// `presence` it removes the surface.
 fn opacity(network: &mut Network<'_>, shader: &Shader, mut closure: Closure) -> Vec<Closure> {
-    let opacity = network.scalar(shader, "opacity", 1.0);
+    let opacity = network.share(shader, "opacity", 1.0);
     let threshold = network.scalar(shader, "opacityThreshold", 0.0);
     let cuts = constant_scalar(threshold).is_none_or(|threshold| threshold > 0.0);
     let is_presence = network.text(shader, "opacityMode").as_deref() == Some("presence");

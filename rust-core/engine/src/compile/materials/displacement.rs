@@ -4,7 +4,7 @@ use super::program::compile_graph;
 use crate::{
     compile::textures::CompiledTextures,
     error::Result,
-    graph::{Program, Wanted},
+    graph::{Program, Wanted, WantedOutput},
     scene::{Displacement, DisplacementKind, Graph, Input, Material, Node, NodeId},
 };
 
@@ -52,8 +52,6 @@ pub(in crate::compile) fn program(
 ) -> Result<Program> {
     let graph = compile_graph(material, textures, names)?;
     let width = if displacement.kind == DisplacementKind::Height { 1 } else { 3 };
-    Ok(Program::new(
-        &graph.code,
-        &Wanted { outputs: vec![(0, width, graph.code.value(displacement.value))], uv: graph.uv, ..Wanted::default() },
-    ))
+    let output = WantedOutput { offset: 0, width, value: graph.code.value(displacement.value), range: None };
+    Ok(Program::new(&graph.code, &Wanted { outputs: vec![output], uv: graph.uv, ..Wanted::default() }))
 }

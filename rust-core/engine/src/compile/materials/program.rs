@@ -6,11 +6,11 @@ use crate::{
         textures::CompiledTextures,
     },
     error::{Error, Result},
-    graph::{HitStep, Occlusion, Program, Wanted},
+    graph::{HitStep, Occlusion, Program, Wanted, WantedOutput},
     scene::{Input, LightPathValue, Material, Node, Operation, Space, TextureFilter, WrapMode},
     texture::{Filter, Wrap},
 };
-use gonio_nodes::{Code, Hit, Kernel, Value};
+use gonio_nodes::{Code, Hit, Kernel};
 use std::sync::Arc;
 
 /// Most rows of a curve's table.
@@ -38,7 +38,7 @@ fn tells_kind_of_ray(operation: &Operation) -> bool {
 
 /// The part of a graph that light sampling runs to know what is emitted; none where that depends on what happened to the path before, which light
 /// sampling cannot tell.
-pub(super) fn sampled_program(graph: &CompiledGraph, outputs: Vec<(usize, usize, Value)>) -> Option<Box<Program>> {
+pub(super) fn sampled_program(graph: &CompiledGraph, outputs: Vec<WantedOutput>) -> Option<Box<Program>> {
     use LightPathValue as V;
     let program = Program::new(&graph.sampled, &Wanted { outputs, uv: graph.uv, ..Wanted::default() });
     let counts = |value: &V| matches!(value, V::RayDepth | V::DiffuseDepth | V::GlossyDepth | V::TransmissionDepth | V::TransparentDepth);

@@ -3,7 +3,7 @@
 use crate::{
     compile::{CompiledScene, compile},
     geometry::GeometryTable,
-    graph::{Around, CHUNK, GraphScratch, HitStep, OutputColumns, Program, SurfaceColumns, Wanted, evaluate},
+    graph::{Around, CHUNK, GraphScratch, HitStep, OutputColumns, Program, SurfaceColumns, Wanted, WantedOutput, evaluate},
     scene::{
         Channel, Graph, Input, Instances, Material, Mesh, NodeId, Origin, Primvar, PrimvarInterpolation, Scene, ShaderOutput, Texture,
         TextureSource, Transform,
@@ -154,7 +154,7 @@ impl Bench {
     /// The program of the last node's four components.
     pub(super) fn last(&self) -> Program {
         let value = self.compiled.tables.materials.shader_outputs[0].outputs[0].color;
-        self.program(Wanted { outputs: vec![(0, 4, value)], ..Wanted::default() })
+        self.program(Wanted { outputs: vec![WantedOutput { offset: 0, width: 4, value, range: None }], ..Wanted::default() })
     }
 
     /// The last node's value at all hits.

@@ -1,7 +1,7 @@
 //! Steps that nothing reads.
 
 use super::harness::{Bench, close, read, triple};
-use crate::graph::{CHUNK, HitStep, Wanted};
+use crate::graph::{CHUNK, HitStep, Wanted, WantedOutput};
 use gonio_nodes::Kernel;
 use gonio_simd::Execution;
 use serde_json::json;
@@ -18,7 +18,11 @@ fn steps_that_nothing_reads_are_left_out() {
         { "operation": "Cosine", "inputs": [node(2)] }
     ]));
     let value = |node: u16| bench.code().value(read(node));
-    let program = bench.program(Wanted { outputs: vec![(0, 3, value(4))], coat_normal: Some(value(1)), ..Wanted::default() });
+    let program = bench.program(Wanted {
+        outputs: vec![WantedOutput { offset: 0, width: 3, value: value(4), range: None }],
+        coat_normal: Some(value(1)),
+        ..Wanted::default()
+    });
     let kernels: Vec<_> = program.kernels().collect();
     let is_point = |kernel: &&Kernel<HitStep>| matches!(kernel, Kernel::Hit(HitStep::Point(_)));
     // A position, a normal, and a sum of each of three components.
