@@ -116,6 +116,10 @@ class FinalSession:
                 film = render.film()
                 passes.write_passes(result, film, kinds, settings, samples)
                 passes.note_mattes(engine, film, depsgraph.view_layer.name)
+                render_settings = depsgraph.scene.render
+                # A border within the whole picture leaves the file another shape than what was rendered.
+                if frame.crop is None or render_settings.use_crop_to_border:
+                    passes.note_view(engine, film)
 
     def _settings(self, depsgraph, layer: _Layer, frame: Frame, kinds: list[passes.Pass], preview: bool, eye: Eye, begun) -> int:
         """Puts the settings into the scene; returns the samples of a pixel."""

@@ -176,6 +176,12 @@ def note_mattes(engine, film, layer: str) -> None:
         engine.get_result().stamp_data_add_field(key, text)
 
 
+def note_view(engine, film) -> None:
+    """Tells Blender how the picture was taken, by which `gonio glare` reads its files."""
+    for key, text in film.view_notes().items():
+        engine.get_result().stamp_data_add_field(key, text)
+
+
 def _pixels(film, kind: Pass, settings, samples: int) -> numpy.ndarray:
     """A pass of a film as Blender takes pixels."""
     if kind.scale is Scale.FALSE_COLOR:

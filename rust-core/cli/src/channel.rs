@@ -3,19 +3,22 @@
 use super::{file, radiance};
 use gonio::{
     Error, Result,
-    output::{Channels, read_exr},
+    film::PictureView,
+    output::{Channels, read_exr, view_of_exr},
 };
 use std::path::Path;
 
 /// The longest Radiance picture in bytes: 65,536 pixels to each side, not compressed.
 const LONGEST: u64 = 16 << 30;
 
+/// How a file says it was taken, or why what it says is of no use.
+type View = std::result::Result<Option<PictureView>, String>;
+
 /// The channels of a file, with width and height, and the place of the one that was asked for.
 pub(super) struct Picture {
     pub(super) channels: Channels,
     pub(super) size: [usize; 2],
-    /// How it was taken, in Radiance's words; EXR files do not say.
-    pub(super) view: Option<String>,
+    pub(super) view: View,
     chosen: usize,
 }
 
@@ -61,9 +64,11 @@ impl Picture {
 }
 
 /// A file's channels, width and height, and view.
-fn channels_of(path: &Path) -> Result<(Channels, [usize; 2], Option<String>)> {
+fn channels_of(path: &Path) -> Result<(Channels, [usize; 2], View)> {
     if radiance::is_radiance(&file::start(path, 2)?) {
-        return radiance::read(path, file::read(path, LONGEST, "picture")?);
+        let (channels, size, words) = radiance::read(path, file::read(path, LONGEST, "picture")?)?;
+        return Ok((channels, size, words.map(|words| radiance::view(&words)).transpose()));
     }
-    read_exr(path).map(|(channels, size)| (channels, size, None))
+    let (channels, size) = read_exr(path)?;
+    Ok((channels, size, Ok(view_of_exr(path)?)))
 }

@@ -1,9 +1,10 @@
 //! `gonio glare`.
 
-use super::{arguments::GlareArguments, channel::Picture, falsecolor::write, file::check_ending, print, radiance};
+use super::{arguments::GlareArguments, channel::Picture, falsecolor::write, file::check_ending, print};
 use gonio::{
     Error, Result,
-    measure::glare::{Coverage, FisheyeProjection, FisheyeView, Glare, GlareOptions, GlareSource, Threshold},
+    film::PictureView,
+    measure::glare::{Coverage, EyeView, Glare, GlareOptions, GlareSource, Threshold},
     output::{Canvas, FalseColourScale},
 };
 use serde_json::{Value, json};
@@ -17,9 +18,8 @@ pub(super) fn glare(options: &GlareArguments) -> Result<i32> {
         check_ending("output", path, &["png"])?;
     }
     let picture = Picture::read(&options.image, &options.quantity)?;
-    let (projection, fov) = projection(options, &picture)?;
-    let view = FisheyeView::new(projection, fov, picture.size)?;
-    let found = Glare::new(picture.values(), &view, &glare_options(options))?;
+    let view = EyeView::new(view(options, &picture)?, picture.size)?;
+    let found = Glare::new(picture.values(), &view, &glare_options(options)?)?;
     if let Some(path) = &options.output {
         write(path, &drawn(&picture, &found)?)?;
     }
@@ -31,27 +31,34 @@ pub(super) fn glare(options: &GlareArguments) -> Result<i32> {
     Ok(0)
 }
 
-/// How the picture was taken: as the options say, else as the picture does, else an even half of the world.
-fn projection(options: &GlareArguments, picture: &Picture) -> Result<(FisheyeProjection, f64)> {
-    let asked = options.projection.as_ref().map(|name| {
-        FisheyeProjection::by_name(name).ok_or_else(|| {
-            let expected = FisheyeProjection::NAMES.map(|(_, name)| name).join(", ");
-            Error::setting("projection", format!("'{name}' was found, expected one of {expected}"))
-        })
-    });
-    let asked = asked.transpose()?;
-    let own = match &picture.view {
-        Some(view) if asked.is_none() || options.fov.is_none() => radiance::fisheye(view).map(Some),
-        _ => Ok(None),
+/// How the picture was taken: as the options say, else as the picture does.
+fn view(options: &GlareArguments, picture: &Picture) -> Result<PictureView> {
+    let Some(name) = &options.projection else {
+        let how = "--projection says it: perspective with --fov across, equidistant, equisolid or hemispherical";
+        let problem = match &picture.view {
+            Ok(Some(view)) => return Ok(*view),
+            Ok(None) => format!("{} does not say how it was taken; {how}", options.image.display()),
+            Err(problem) => format!("{problem}; {how}"),
+        };
+        return Err(Error::setting("projection", problem));
     };
-    let own = own.or_else(|problem| if asked.is_some() { Ok(None) } else { Err(Error::setting("projection", problem)) })?;
-    let (projection, fov) = own.unwrap_or((FisheyeProjection::Equidistant, 180.0));
-    Ok((asked.unwrap_or(projection), options.fov.unwrap_or(fov)))
+    let fov = match options.fov {
+        Some(fov) => fov,
+        None if name == "perspective" => return Err(Error::setting("fov", "a perspective wants its field of view across, degrees")),
+        None => 180.0,
+    };
+    PictureView::by_name(name, fov, picture.size[0] as f64 / picture.size[1].max(1) as f64)
 }
 
-fn glare_options(options: &GlareArguments) -> GlareOptions {
-    let threshold = options.threshold.map_or(GlareOptions::default().threshold, Threshold::Luminance);
-    GlareOptions { threshold, radius: options.radius }
+fn glare_options(options: &GlareArguments) -> Result<GlareOptions> {
+    let threshold = match options.threshold.strip_suffix('x') {
+        Some(times) => times.parse().map(Threshold::TimesMean),
+        None => options.threshold.parse().map(Threshold::Luminance),
+    };
+    let wrong =
+        |_| Error::setting("threshold", format!("'{}' was found, expected cd/m², or 5x for five times the mean", options.threshold));
+    let peak = (options.peak != 0.0).then_some(options.peak);
+    Ok(GlareOptions { threshold: threshold.map_err(wrong)?, radius: options.radius, peak, illuminance: options.illuminance })
 }
 
 /// Degrees to the right and up.
@@ -77,6 +84,8 @@ fn as_json(glare: &Glare) -> Value {
         "dgp": glare.dgp(),
         "dgp_low_light": glare.dgp_low_light(),
         "eye_illuminance_lx": glare.eye_illuminance,
+        "seen_illuminance_lx": glare.seen_illuminance,
+        "share_seen": glare.seen,
         "background_luminance_cd_m2": glare.background_luminance,
         "mean_luminance_cd_m2": glare.mean_luminance,
         "threshold_cd_m2": glare.threshold,
@@ -105,15 +114,32 @@ fn ugr_line(glare: &Glare) -> String {
         None if coverage.sources > coverage.left_out() => "UGR: not defined, the background is black".to_owned(),
         None => "UGR: no source of glare ahead".to_owned(),
     };
-    coverage.note().map_or(rating.clone(), |note| format!("{rating} ({note})"))
+    let percent = 100.0 * glare.seen;
+    let part = (glare.seen < 1.0).then(|| format!("of the {percent:.0} % of what lights the eye that the picture shows"));
+    let notes: Vec<String> = part.into_iter().chain(coverage.note()).collect();
+    if notes.is_empty() { rating } else { format!("{rating} ({})", notes.join("; ")) }
+}
+
+/// The probability and the light at the eye, or why they are not known.
+fn eye_lines(glare: &Glare) -> [String; 2] {
+    match (glare.dgp(), glare.dgp_low_light(), glare.eye_illuminance) {
+        (Some(dgp), Some(low), Some(illuminance)) => {
+            [format!("DGP: {dgp:.3} ({low:.3} with the correction for little light)"), format!("at the eye: {illuminance:.1} lx")]
+        }
+        _ => [
+            "DGP: not known, the picture shows less than a hemisphere; --illuminance gives the light at the eye".to_owned(),
+            format!("at the eye: not known, {:.1} lx by what the picture shows", glare.seen_illuminance),
+        ],
+    }
 }
 
 /// The rating, line by line.
 pub(super) fn as_text(glare: &Glare) -> Vec<String> {
+    let [dgp, eye] = eye_lines(glare);
     let mut lines = vec![
         ugr_line(glare),
-        format!("DGP: {:.3} ({:.3} with the correction for little light)", glare.dgp(), glare.dgp_low_light()),
-        format!("at the eye: {:.1} lx", glare.eye_illuminance),
+        dgp,
+        eye,
         format!("background: {:.2} cd/m², mean: {:.2} cd/m²", glare.background_luminance, glare.mean_luminance),
         format!("sources from {:.0} cd/m²: {}", glare.threshold, glare.sources.len()),
     ];

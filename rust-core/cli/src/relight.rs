@@ -6,7 +6,7 @@ use gonio::{
     colour::luminance_of_pixel,
     film::{Frame, Image, Layer},
     light::blackbody_rgb,
-    output::{Channels, ExrOptions, exposure_of_exr, read_exr, write_exr},
+    output::{Channels, ExrOptions, exposure_of_exr, read_exr, view_of_exr, write_exr},
     scene::{Aov, Crop},
 };
 
@@ -39,7 +39,8 @@ pub(super) fn relight(options: &RelightOptions) -> Result<i32> {
         ));
     }
     let factor = |name: &String| asked.iter().rev().find(|(asked, _)| asked == name).map_or([1.0; 3], |(_, factor)| *factor);
-    let image = relit(&channels, size, exposure, &names, factor);
+    let mut image = relit(&channels, size, exposure, &names, factor);
+    image.frame.view = view_of_exr(&options.image)?;
     write_exr(&options.output, &image, &ExrOptions { exposure, ..ExrOptions::default() })?;
     print(&options.output.display().to_string());
     Ok(0)

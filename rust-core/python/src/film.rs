@@ -166,6 +166,10 @@ impl Film {
     fn matte_notes(&self, py: Python<'_>, prefix: &str) -> HashMap<String, String> {
         py.detach(|| matte_notes(&self.image, prefix).into_iter().collect())
     }
+    /// How the picture was taken, as headers of files state it for `gonio glare` (projection, window, field of view, position, direction, up), by key.
+    fn view_notes(&self) -> HashMap<&'static str, String> {
+        self.image.frame.view.iter().flat_map(gonio::film::PictureView::notes).collect()
+    }
     /// The log-average luminance of the colour pass, which the photographic operators adapt to.
     fn log_average(&self, py: Python<'_>) -> f32 {
         py.detach(|| log_average(&self.image, Execution::detect()))

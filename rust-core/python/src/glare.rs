@@ -5,7 +5,10 @@ use crate::{
     error::{exception, setting},
     picture::flat,
 };
-use gonio::measure::glare::{self as engine, FisheyeProjection, FisheyeView, GlareOptions, Threshold};
+use gonio::{
+    film::PictureView,
+    measure::glare::{self as engine, EyeView, GlareOptions, Threshold},
+};
 use pyo3::prelude::*;
 
 /// The sources ahead of an eye that sees them, and those that a unified glare rating leaves out, since CIE 117 has no position index for them.
@@ -61,7 +64,7 @@ pub(crate) struct GlareSource {
     illuminance: f64,
 }
 
-/// What a fisheye picture says about glare.
+/// What a picture says about glare.
 #[pyclass(frozen, module = "gonio")]
 pub(crate) struct Glare {
     found: engine::Glare,
@@ -79,22 +82,32 @@ impl Glare {
     fn coverage(&self) -> Coverage {
         Coverage::of(&self.found.coverage())
     }
-    /// Daylight glare probability.
+    /// Daylight glare probability; None where the illuminance at the eye is not known.
     #[getter]
-    fn dgp(&self) -> f64 {
+    fn dgp(&self) -> Option<f64> {
         self.found.dgp()
     }
     /// The same with the correction for less than 1000 lx at the eye.
     #[getter]
-    fn dgp_low_light(&self) -> f64 {
+    fn dgp_low_light(&self) -> Option<f64> {
         self.found.dgp_low_light()
     }
-    /// Illuminance at the eye across the line of sight, lx.
+    /// Illuminance at the eye across the line of sight, lx; None where the picture shows less than a hemisphere and nothing was stated.
     #[getter]
-    fn eye_illuminance(&self) -> f64 {
+    fn eye_illuminance(&self) -> Option<f64> {
         self.found.eye_illuminance
     }
-    /// Luminance of what is no source, by its illuminance at the eye, cd/m².
+    /// The same by what the picture shows, lx.
+    #[getter]
+    fn seen_illuminance(&self) -> f64 {
+        self.found.seen_illuminance
+    }
+    /// Share that the picture shows of all that lights the eye, by solid angles times cosines.
+    #[getter]
+    fn share_seen(&self) -> f64 {
+        self.found.seen
+    }
+    /// Luminance of what is no source, by its illuminance at the eye, cd/m²; where that is not known, its mean in the picture.
     #[getter]
     fn background_luminance(&self) -> f64 {
         self.found.background_luminance
@@ -119,25 +132,33 @@ impl Glare {
     }
 }
 
-/// Rates glare in a fisheye picture of luminances in cd/m²: a float buffer (height, width) or (height, width, 1), rows from the top, whose circle touches
-/// its edges. `projection`: equidistant, equisolid or hemispherical; `fov`: degrees; `threshold`: cd/m² from which on a pixel glares, five times the
-/// mean without it; `radius`: radians within which sources count as one.
+/// Rates glare in a picture of luminances in cd/m²: a float buffer (height, width) or (height, width, 1), rows from the top. `projection`: perspective,
+/// equidistant, equisolid or hemispherical; `fov`: degrees, of a perspective across, of a fisheye all around, 180 unless stated: its circle touches the
+/// picture's edges; `threshold`: cd/m² from which on a pixel glares; `radius`: opening angle in radians of the circle within which what glares is of one
+/// source; `peak`: cd/m² from which on pixels of a source are one of their own, None for never; `illuminance`: lx at the eye, measured otherwise.
 #[pyfunction]
-#[pyo3(signature = (luminance, *, projection = "equidistant", fov = 180.0, threshold = None, radius = 0.2))]
+#[pyo3(signature = (luminance, *, projection, fov = None, threshold = 2000.0, radius = 0.2, peak = Some(50_000.0), illuminance = None))]
+#[expect(clippy::too_many_arguments, reason = "keywords of Python")]
 pub(crate) fn glare(
     py: Python<'_>,
     luminance: &Bound<'_, PyAny>,
     projection: &str,
-    fov: f64,
-    threshold: Option<f64>,
+    fov: Option<f64>,
+    threshold: f64,
     radius: f64,
+    peak: Option<f64>,
+    illuminance: Option<f64>,
 ) -> PyResult<Glare> {
-    let expected = || FisheyeProjection::NAMES.map(|(_, name)| name).join(", ");
-    let problem = || setting("projection", format!("'{projection}' was found, expected one of {}", expected()));
-    let projection = FisheyeProjection::by_name(projection).ok_or_else(problem)?;
-    let view = FisheyeView::new(projection, fov, side_lengths(luminance, "luminance")?).map_err(exception)?;
+    let size = side_lengths(luminance, "luminance")?;
+    let fov = match fov {
+        Some(fov) => fov,
+        None if projection == "perspective" => return Err(setting("fov", "a perspective wants its field of view across, degrees")),
+        None => 180.0,
+    };
+    let picture = PictureView::by_name(projection, fov, size[0] as f64 / size[1].max(1) as f64).map_err(exception)?;
+    let view = EyeView::new(picture, size).map_err(exception)?;
     let values = flat(luminance, "luminance")?;
-    let threshold = threshold.map_or(GlareOptions::default().threshold, Threshold::Luminance);
-    let found = py.detach(|| engine::Glare::new(&values, &view, &GlareOptions { threshold, radius }));
+    let options = GlareOptions { threshold: Threshold::Luminance(threshold), radius, peak, illuminance };
+    let found = py.detach(|| engine::Glare::new(&values, &view, &options));
     Ok(Glare { found: found.map_err(exception)? })
 }

@@ -7,10 +7,10 @@ use gonio::{
     colour::luminance_of_pixel,
     compile::{CompiledScene, compile},
     film::Image,
-    measure::glare::{FisheyeProjection, FisheyeView, Glare, GlareOptions},
+    measure::glare::{EyeView, Glare, GlareOptions},
     output::{FalseColour, Look, display_over_black, encode_jpeg},
     render::Render,
-    scene::{Aov, Integrator, Projection},
+    scene::{Aov, Integrator},
 };
 use gonio_formats::short_number;
 use gonio_simd::Execution;
@@ -119,7 +119,7 @@ fn picture(
         figures: [sum / values.len().max(1) as f64, f64::from(greatest)],
         samples: image.samples,
         denoised: denoiser.is_some(),
-        glare: rating(camera.projection, &values, image.size())?,
+        glare: rating(&image, &values)?,
     })
 }
 
@@ -138,14 +138,13 @@ fn as_jpeg(image: &Image, options: &ReportOptions, execution: Execution) -> Resu
     encode_jpeg(&rgba, width, height).map_err(|error| Error::io(&options.output, error))
 }
 
-/// UGR and DGP of what a fisheye camera sees, if that is half a world at least.
-fn rating(projection: Projection, luminances: &[f32], size: [usize; 2]) -> Result<Vec<String>> {
-    let Projection::FisheyeEquidistant { fov_deg } = projection else { return Ok(Vec::new()) };
-    let view = FisheyeView::new(FisheyeProjection::Equidistant, fov_deg, size)?;
-    if !view.covers_hemisphere() {
-        return Ok(Vec::new());
+/// UGR and DGP of what a camera sees, if that is half a world at least.
+fn rating(image: &Image, luminances: &[f32]) -> Result<Vec<String>> {
+    let eye = image.frame.view.and_then(|view| EyeView::new(view, image.size()).ok());
+    match eye.filter(EyeView::covers_hemisphere) {
+        Some(eye) => Ok(glare::as_text(&Glare::new(luminances, &eye, &GlareOptions::default())?)),
+        None => Ok(Vec::new()),
     }
-    Ok(glare::as_text(&Glare::new(luminances, &view, &GlareOptions::default())?))
 }
 
 /// The pictures with their captions.

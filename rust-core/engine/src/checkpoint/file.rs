@@ -49,6 +49,7 @@ impl Checkpoint {
         }
         let mut film =
             Film::new(&identity.settings, window, identity.exposure, identity.besides).with_manifests(identity.manifests.clone());
+        film = film.with_view(identity.view);
         film.fill(&mut input).map_err(damaged)?;
         let expected = input.digest.value();
         let mut found = [0; 8];

@@ -1,8 +1,9 @@
 //! What a checkpoint is of: program, SIMD level, scene and settings. Others would give other bits.
 
 use crate::{
+    compile::{picture_view, window},
     error::{Error, Result},
-    film::Besides,
+    film::{Besides, PictureView},
     scene::{Digest, Manifests, Scene, Settings, TextureSource, digest_scene},
     texture::{find_tiles, is_udim},
 };
@@ -40,6 +41,9 @@ pub struct Identity {
     /// The names in its mattes.
     #[serde(default)]
     pub(super) manifests: Arc<Manifests>,
+    /// How the picture is seen.
+    #[serde(default)]
+    pub(super) view: Option<PictureView>,
     /// Text for the header of EXR files.
     pub notes: Vec<(String, String)>,
 }
@@ -55,6 +59,7 @@ impl Identity {
             exposure: scene.cameras.get(settings.camera as usize).map_or(1.0, |camera| camera.exposure.0),
             besides: Besides::of(scene),
             manifests: Arc::new(Manifests::of(scene)),
+            view: view_of(scene),
             settings,
             notes,
         }
@@ -88,6 +93,12 @@ impl Identity {
         let other = found.get(name).map_or_else(|| "absent".to_owned(), ToString::to_string);
         Some(format!("its {} is {other}, {value} was asked for", name.replace('_', " ")))
     }
+}
+
+/// How a scene's camera sees the window that its settings ask for.
+fn view_of(scene: &Scene) -> Option<PictureView> {
+    let camera = scene.cameras.get(scene.settings.camera as usize)?;
+    picture_view(camera, &scene.settings, window(&scene.settings).ok()?)
 }
 
 /// A number that tells scenes apart, with the bytes of their image files.

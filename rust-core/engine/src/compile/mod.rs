@@ -54,7 +54,7 @@ pub(crate) use dice::is_diced;
 pub use luminaires::luminous_fluxes;
 pub(crate) use luminaires::{Luminaire, is_luminaire, luminaires};
 pub use view::View;
-pub(crate) use view::{check_tiles, transport, window};
+pub(crate) use view::{check_tiles, picture_view, transport, window};
 
 use crate::{
     accel::{Blas, Tlas},

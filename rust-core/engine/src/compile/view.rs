@@ -5,7 +5,7 @@ use crate::{
     antialias::Rule,
     camera::{Aperture, CameraTable, Lens},
     error::{Error, Result},
-    film::{Film, Placement, tabulate},
+    film::{Film, PictureProjection, PictureView, Placement, tabulate},
     scene::{Antialiasing, Aov, Background, Camera, Crop, Integrator, Projection, Settings},
     transport::{Distance, Estimator, Limits, Mist, Passes, PathFilter, Transport, medium_at},
 };
@@ -217,6 +217,25 @@ impl Plane {
     }
 }
 
+/// How a window of a camera's picture is seen; none where the camera is not usable.
+pub(crate) fn picture_view(camera: &Camera, settings: &Settings, window: Crop) -> Option<PictureView> {
+    let Plane { size, middle, lens } = Some(Plane::new(camera)).filter(Plane::is_usable)?;
+    let projection = match lens {
+        Lens::Perspective => PictureProjection::Perspective,
+        Lens::Orthographic => PictureProjection::Orthographic,
+        Lens::Equirectangular => PictureProjection::Equirectangular,
+        Lens::Equidistant { limit } => PictureProjection::Equidistant { limit: f64::from(limit) },
+        Lens::Equisolid { limit } => PictureProjection::Equisolid { limit: f64::from(limit) },
+    };
+    let share = |pixel: u32, axis: usize| f64::from(pixel) / f64::from(settings.resolution[axis]) - 0.5;
+    let [left, right] = [window.min[0], window.max[0]].map(|x| middle[0] + size[0] * share(x, 0));
+    let [top, bottom] = [window.min[1], window.max[1]].map(|y| middle[1] - size[1] * share(y, 1));
+    let [_, up, back, position] = camera.transform.columns;
+    let placed = [position, unit(back).map(|x| 0.0 - x), unit(up)];
+    let placed = Some(placed).filter(|placed| placed.iter().flatten().all(|x| x.is_finite()));
+    Some(PictureView { projection, window: [left, right, bottom, top], placed })
+}
+
 fn aperture(camera: &Camera) -> Aperture {
     Aperture {
         blades: if camera.blades == 0 { 0 } else { camera.blades.max(3) },
@@ -225,12 +244,13 @@ fn aperture(camera: &Camera) -> Aperture {
     }
 }
 
+fn unit(v: [f64; 3]) -> [f64; 3] {
+    let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    v.map(|x| x / length)
+}
+
 fn camera_table(camera: &Camera, settings: &Settings, origin: [f64; 3]) -> Result<CameraTable> {
     let columns = camera.transform.columns;
-    let unit = |v: [f64; 3]| {
-        let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
-        v.map(|x| x / length)
-    };
     let axes = [columns[0], columns[1], columns[2]].map(unit);
     let Plane { size, middle, lens } = Some(Plane::new(camera))
         .filter(|plane| plane.is_usable() && axes.iter().flatten().all(|x| x.is_finite()))

@@ -2,7 +2,7 @@
 
 use super::backdrop::Backdrop;
 use super::splats::SplatFilm;
-use super::{Film, ZONES, catcher, channel_names, channels::MOTION_CHANNELS, divisor, is_index, zone_of};
+use super::{Film, PictureView, ZONES, catcher, channel_names, channels::MOTION_CHANNELS, divisor, is_index, zone_of};
 use crate::{
     camera::sampler::{BATCH, TILE, tile_code, tile_place},
     colour::luminance,
@@ -35,11 +35,13 @@ pub struct Frame {
     pub overscan: [u32; 4],
     /// Width of a pixel over its height.
     pub pixel_aspect: f64,
+    /// How the rendered window was taken, where that is known.
+    pub view: Option<PictureView>,
 }
 
 impl Default for Frame {
     fn default() -> Self {
-        Self { overscan: [0; 4], pixel_aspect: 1.0 }
+        Self { overscan: [0; 4], pixel_aspect: 1.0, view: None }
     }
 }
 
@@ -50,7 +52,7 @@ pub struct Image {
     pub resolution: [u32; 2],
     /// The part the layers hold.
     pub window: Crop,
-    /// Overscan and the pixels' shape.
+    /// Overscan, the pixels' shape, and how the window was taken.
     pub frame: Frame,
     /// What is seen where no surface is.
     pub backdrop: Backdrop,

@@ -12,6 +12,7 @@ mod edge_aware;
 mod filter;
 mod matte;
 mod noise;
+mod picture_view;
 mod raw;
 mod splat_limits;
 mod splats;
@@ -29,6 +30,7 @@ pub use edge_aware::edge_aware;
 pub use filter::tabulate;
 pub use gonio_camera::{FilterTable, Placement};
 pub(crate) use noise::decides;
+pub use picture_view::{PictureProjection, PictureView};
 use splats::SplatFilm;
 pub(crate) use splats::{SplatBlock, SplatLayout};
 pub use tile::{Block, TileFilm, TileState};
@@ -51,7 +53,7 @@ pub struct Film {
     pub resolution: [u32; 2],
     /// The part that is rendered; tiles start at its corner.
     pub window: Crop,
-    /// Pixels on each side that lie outside the picture proper, and the pixels' width over height.
+    /// How the picture is to be placed, and how it was taken.
     frame: Frame,
     /// Whether a sky is seen behind all surfaces.
     sky: bool,
@@ -83,7 +85,7 @@ impl Film {
         let layout = ChannelLayout::with_divisors(&settings.aovs).besides(besides);
         let names = layout.aovs.iter().map(|aov| settings.pass_name(*aov)).collect();
         let plan = Plan::new(settings, &layout, across(0) * across(1));
-        let frame = Frame { overscan: settings.overscan, pixel_aspect: settings.pixel_aspect };
+        let frame = Frame { overscan: settings.overscan, pixel_aspect: settings.pixel_aspect, view: None };
         let (resolution, columns) = (settings.resolution, across(0));
         let mut film = Self {
             resolution,
@@ -108,6 +110,12 @@ impl Film {
         };
         film.tiles = (0..across(0) * across(1)).map(tile).collect();
         film
+    }
+
+    /// Takes how it is seen, which files say.
+    pub(crate) fn with_view(mut self, view: Option<PictureView>) -> Self {
+        self.frame.view = view;
+        self
     }
 
     /// Takes the names in its mattes, which files say.

@@ -4,7 +4,7 @@ use super::write_atomically;
 use crate::{
     colour::{Gamut, Primaries, apply, inverse},
     error::{Error, Result},
-    film::{Image, Layer, channel_names, is_absolute},
+    film::{Image, Layer, PictureView, channel_names, is_absolute},
     scene::{Aov, matte_key},
 };
 use exr::meta::attribute::Chromaticities;
@@ -12,7 +12,7 @@ use exr::prelude::{
     AnyChannel, AnyChannels, AttributeValue, Encoding, FlatSamples, ImageAttributes, IntegerBounds, Layer as ExrLayer, LayerAttributes,
     Text, Vec2, WritableImage, f16,
 };
-use std::{borrow::Cow, path::Path};
+use std::{borrow::Cow, collections::HashMap, path::Path};
 
 /// How colour is stored, and what the header says.
 #[derive(Clone, Debug, Default)]
@@ -64,6 +64,9 @@ fn picture(image: &Image, options: &ExrOptions) -> ExrImage {
         if let Some(unit) = unit(layer.aov, options.gamut) {
             note(&format!("gonio:unit:{}", name(layer)), unit);
         }
+    }
+    for (key, value) in image.frame.view.iter().flat_map(PictureView::notes) {
+        note(key, &value);
     }
     for (key, value) in &options.attributes {
         note(key, value);
@@ -205,11 +208,29 @@ fn column<const CHANNELS: usize>(values: &[f32], channel: usize) -> Vec<f32> {
     pixels.iter().map(|pixel| pixel[channel]).collect()
 }
 
-/// The exposure that a file's colour was multiplied by, as [`write_exr`] notes it; 1 where nothing is noted.
-pub fn exposure_of_exr(path: &Path) -> Result<f32> {
+/// The attributes of a file's first part.
+fn attributes(path: &Path) -> Result<LayerAttributes> {
     let failed = |error: exr::error::Error| Error::Format { path: path.to_owned(), line: None, problem: error.to_string() };
     let meta = exr::meta::MetaData::read_from_file(path, false).map_err(failed)?;
-    let white = meta.headers.first().and_then(|header| header.own_attributes.white_luminance);
+    Ok(meta.headers.into_iter().next().map(|header| header.own_attributes).unwrap_or_default())
+}
+
+/// How a file's picture was taken, as [`write_exr`] notes it; none where nothing is noted.
+pub fn view_of_exr(path: &Path) -> Result<Option<PictureView>> {
+    let texts: HashMap<String, String> = attributes(path)?
+        .other
+        .into_iter()
+        .filter_map(|(name, value)| match value {
+            AttributeValue::Text(text) => Some((name.to_string(), text.to_string())),
+            _ => None,
+        })
+        .collect();
+    Ok(PictureView::from_notes(|name| texts.get(name).map(String::as_str)))
+}
+
+/// The exposure that a file's colour was multiplied by, as [`write_exr`] notes it; 1 where nothing is noted.
+pub fn exposure_of_exr(path: &Path) -> Result<f32> {
+    let white = attributes(path)?.white_luminance;
     Ok(white.filter(|white| *white > 0.0 && white.is_finite()).map_or(1.0, f32::recip))
 }
 

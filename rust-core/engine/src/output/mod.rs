@@ -10,7 +10,7 @@ mod tone_map;
 pub use crate::scene::{write_atomically, write_through};
 pub use compare::{ChannelDifference, Comparison, compare, difference_picture};
 pub use deep::write_deep_exr;
-pub use exr::{Channels, ExrOptions, exposure_of_exr, matte_notes, read_exr, write_exr};
+pub use exr::{Channels, ExrOptions, exposure_of_exr, matte_notes, read_exr, view_of_exr, write_exr};
 pub use false_colour::{Canvas, FalseColour, FalseColourScale, MOST_STEPS};
 pub use picture::{encode_jpeg, encode_png, write_picture};
 pub use tone_map::{Adaptation, DisplaySpace, Look, ToneMap, display, display_deep, display_linear, display_over_black, log_average};

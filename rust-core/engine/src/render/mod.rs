@@ -16,7 +16,7 @@ pub use progress::Progress;
 pub use schedule::TileReady;
 
 use crate::{
-    compile::{CompiledScene, View, transport},
+    compile::{CompiledScene, View, picture_view, transport},
     error::{Error, Result},
     film::Film,
     light::LightCache,
@@ -241,7 +241,8 @@ fn by_light_alone(scene: &CompiledScene, settings: &Settings) -> Result<()> {
 
 fn film_of(scene: &CompiledScene, settings: &Settings, window: Crop, exposure: f32) -> Film {
     let film = Film::new(settings, window, exposure, scene.besides);
-    film.with_manifests(scene.manifests.clone())
+    let camera = scene.cameras.get(settings.camera as usize);
+    film.with_manifests(scene.manifests.clone()).with_view(camera.and_then(|camera| picture_view(camera, settings, window)))
 }
 
 impl Drop for Render {

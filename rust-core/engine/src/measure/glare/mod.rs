@@ -1,5 +1,6 @@
-//! Glare from a fisheye picture of luminances: UGR and DGP, and the sources that cause it.
+//! Glare from a picture of luminances: UGR and DGP, and the sources that cause it.
 
+mod cluster;
 mod coverage;
 mod position;
 mod source;
@@ -12,7 +13,7 @@ pub use coverage::{Coverage, LARGEST};
 pub use gonio_formats::photometry::position_index as cie_position_index;
 pub use position::position_index;
 pub use source::{GlareSource, Threshold};
-pub use view::{FisheyeProjection, FisheyeView, PixelView};
+pub use view::{EyeView, PixelView};
 
 pub(crate) use coverage::{is_below, weight};
 
@@ -24,19 +25,23 @@ use std::f64::consts::PI;
 pub struct GlareOptions {
     /// From which luminance on a pixel glares.
     pub threshold: Threshold,
-    /// Radians within which sources count as one; evalglare's is 0.2.
+    /// Opening angle of the circle about a pixel, radians, within which what glares is of one source: evalglare's search radius.
     pub radius: f64,
+    /// Luminance in cd/m² from which on pixels of a source are one of their own, as the sun's disk in a window: evalglare's peak extraction; none without.
+    pub peak: Option<f64>,
+    /// Illuminance at the eye across the line of sight, lx, where it was measured otherwise; pictures of less than a hemisphere do not tell it.
+    pub illuminance: Option<f64>,
 }
 
 impl Default for GlareOptions {
-    /// As evalglare does where nothing is said: five times the mean, 0.2 radians.
+    /// As evalglare 3 does where nothing is said: from 2000 cd/m² on, 0.2 radians, peaks from 50,000 cd/m² on.
     fn default() -> Self {
-        Self { threshold: Threshold::TimesMean(5.0), radius: 0.2 }
+        Self { threshold: Threshold::Luminance(2000.0), radius: 0.2, peak: Some(50_000.0), illuminance: None }
     }
 }
 
 impl GlareOptions {
-    /// Refuses thresholds and radii that are none.
+    /// Refuses thresholds, radii and illuminances that are none.
     fn check(&self) -> Result<()> {
         let (Threshold::Luminance(threshold) | Threshold::TimesMean(threshold)) = self.threshold;
         if !(threshold >= 0.0 && threshold.is_finite()) {
@@ -44,6 +49,11 @@ impl GlareOptions {
         }
         if !(0.0..=PI).contains(&self.radius) {
             return Err(Error::setting("radius", format!("{} was found, expected radians from 0 to π", self.radius)));
+        }
+        for (name, value) in [("peak", self.peak), ("illuminance", self.illuminance)] {
+            if let Some(value) = value.filter(|value| !(*value > 0.0 && value.is_finite())) {
+                return Err(Error::setting(name, format!("{value} was found, expected a number above 0")));
+            }
         }
         Ok(())
     }
@@ -60,9 +70,13 @@ pub struct Glare {
     pub threshold: f64,
     /// Mean luminance of the picture by solid angle, cd/m².
     pub mean_luminance: f64,
-    /// Illuminance at the eye across the line of sight, lx.
-    pub eye_illuminance: f64,
-    /// Luminance of what is no source: its illuminance at the eye over π, cd/m².
+    /// Illuminance across the line of sight by what the picture shows, lx.
+    pub seen_illuminance: f64,
+    /// Share that the picture shows of all that lights the eye, by solid angles times cosines: 1 for a hemisphere and more.
+    pub seen: f64,
+    /// Illuminance at the eye across the line of sight, lx: as stated, or by the picture; none where it shows less than a hemisphere.
+    pub eye_illuminance: Option<f64>,
+    /// Luminance of what is no source: its illuminance at the eye over π, cd/m². Where the illuminance is not known, the mean over what the picture shows.
     pub background_luminance: f64,
 }
 
@@ -70,8 +84,8 @@ impl Glare {
     /// Finds the sources in luminances (cd/m², rows from the top). Values that are not finite or below 0 count as 0.
     ///
     /// # Errors
-    /// Another number of values than the view has pixels, or none, a view of less than a hemisphere, or a threshold or radius that is none.
-    pub fn new(luminance: &[f32], view: &FisheyeView, options: &GlareOptions) -> Result<Self> {
+    /// Another number of values than the view has pixels, or none, or options that are none.
+    pub fn new(luminance: &[f32], view: &EyeView, options: &GlareOptions) -> Result<Self> {
         let [width, height] = view.size();
         if luminance.len() != width * height {
             return Err(Error::setting("luminance", format!("{} values were found, expected {width} × {height}", luminance.len())));
@@ -80,30 +94,36 @@ impl Glare {
             return Err(Error::setting("luminance", "the picture has no pixels"));
         }
         options.check()?;
-        if !view.covers_hemisphere() {
-            let problem = "the picture shows less than a hemisphere, so that the light at the eye is not known; expected 180° or more";
-            return Err(Error::setting("fov", problem));
-        }
         let known: Vec<f32> = luminance.iter().map(|value| if value.is_finite() { value.max(0.0) } else { 0.0 }).collect();
-        let (mut light, mut solid_angle, mut eye_illuminance) = (0.0, 0.0, 0.0);
+        let (mut light, mut solid_angle, mut seen_illuminance, mut projected) = (0.0, 0.0, 0.0, 0.0);
         for (index, value) in known.iter().enumerate() {
             if let Some(pixel) = view.pixel([index % width, index / width]) {
                 let own = f64::from(*value) * pixel.solid_angle;
                 light += own;
                 solid_angle += pixel.solid_angle;
-                eye_illuminance += own * pixel.direction[2].max(0.0);
+                seen_illuminance += own * pixel.direction[2].max(0.0);
+                projected += pixel.solid_angle * pixel.direction[2].max(0.0);
             }
         }
+        if solid_angle <= 0.0 {
+            return Err(Error::setting("fov", "nothing of the picture lies within the field of view"));
+        }
+        let whole = view.covers_hemisphere();
+        let eye_illuminance = options.illuminance.or(whole.then_some(seen_illuminance));
         let mean_luminance = light / solid_angle;
         let threshold = match options.threshold {
             Threshold::Luminance(luminance) => luminance,
             Threshold::TimesMean(factor) => factor * mean_luminance,
         };
         // Everything would glare in the dark.
-        let (sources, source_of) = source::find(&known, view, threshold.max(f64::MIN_POSITIVE), options.radius);
+        let (sources, source_of) = source::find(&known, view, threshold.max(f64::MIN_POSITIVE), options);
         let of_sources: f64 = sources.iter().map(|source| source.illuminance).sum();
-        let background_luminance = (eye_illuminance - of_sources).max(0.0) / PI;
-        Ok(Self { sources, source_of, threshold, mean_luminance, eye_illuminance, background_luminance })
+        let background_luminance = match eye_illuminance {
+            Some(illuminance) => (illuminance - of_sources).max(0.0) / PI,
+            None => (seen_illuminance - of_sources).max(0.0) / projected.max(f64::MIN_POSITIVE),
+        };
+        let seen = if whole { 1.0 } else { (projected / PI).min(1.0) };
+        Ok(Self { sources, source_of, threshold, mean_luminance, seen_illuminance, seen, eye_illuminance, background_luminance })
     }
 
     /// Unified glare rating (CIE 117): 8 log₁₀(0.25 / L_b Σ L² ω / p²) over the sources that have a position index there. None without such sources, or where
@@ -126,16 +146,18 @@ impl Glare {
     }
 
     /// Daylight glare probability (Wienold and Christoffersen 2006): 5.87·10⁻⁵ E_v + 0.0918 log₁₀(1 + Σ L² ω / (E_v^1.87 P²)) + 0.16, at most 1.
-    /// Made for 380 lx and more at the eye and values from 0.2 to 0.8.
-    pub fn dgp(&self) -> f64 {
-        let of_sources = if self.eye_illuminance > 0.0 { self.weighted_sum() / self.eye_illuminance.powf(1.87) } else { 0.0 };
-        (5.87e-5 * self.eye_illuminance + 0.0918 * (1.0 + of_sources).log10() + 0.16).min(1.0)
+    /// Made for 380 lx and more at the eye and values from 0.2 to 0.8. None where the illuminance at the eye is not known.
+    pub fn dgp(&self) -> Option<f64> {
+        let illuminance = self.eye_illuminance?;
+        let of_sources = if illuminance > 0.0 { self.weighted_sum() / illuminance.powf(1.87) } else { 0.0 };
+        Some((5.87e-5 * illuminance + 0.0918 * (1.0 + of_sources).log10() + 0.16).min(1.0))
     }
 
     /// The same with Wienold's correction for little light, as evalglare has it below 1000 lx: times e^(0.024 E_v − 4) / (1 + e^(0.024 E_v − 4)).
-    pub fn dgp_low_light(&self) -> f64 {
-        let exponential = (0.024 * self.eye_illuminance.min(1000.0) - 4.0).exp();
-        if self.eye_illuminance < 1000.0 { self.dgp() * exponential / (1.0 + exponential) } else { self.dgp() }
+    pub fn dgp_low_light(&self) -> Option<f64> {
+        let illuminance = self.eye_illuminance?;
+        let exponential = (0.024 * illuminance.min(1000.0) - 4.0).exp();
+        self.dgp().map(|dgp| if illuminance < 1000.0 { dgp * exponential / (1.0 + exponential) } else { dgp })
     }
 
     /// Σ L² ω / P² over the sources before the eye.

@@ -1,9 +1,11 @@
 //! Finding what glares: pixels above a threshold, gathered into sources.
 
 use super::{
+    GlareOptions,
+    cluster::{Pixel, clusters},
     coverage::{is_below, weight},
     position::position_index,
-    view::FisheyeView,
+    view::{EyeView, PixelView},
 };
 use gonio_formats::photometry::NoIndex;
 use std::collections::HashMap;
@@ -62,11 +64,22 @@ struct Sums {
 }
 
 impl Sums {
-    fn add(&mut self, other: &Self) {
-        self.light += other.light;
-        self.solid_angle += other.solid_angle;
-        self.illuminance += other.illuminance;
-        (0..3).for_each(|i| self.direction[i] += other.direction[i]);
+    fn add(&mut self, pixel: &PixelView, luminance: f64) {
+        let light = luminance * pixel.solid_angle;
+        self.light += light;
+        self.solid_angle += pixel.solid_angle;
+        self.illuminance += light * pixel.direction[2].max(0.0);
+        (0..3).for_each(|i| self.direction[i] += light * pixel.direction[i]);
+    }
+    fn source(&self) -> GlareSource {
+        let direction = self.unit_direction();
+        GlareSource {
+            luminance: self.light / self.solid_angle,
+            solid_angle: self.solid_angle,
+            direction,
+            position_index: position_index(direction),
+            illuminance: self.illuminance,
+        }
     }
     fn unit_direction(&self) -> [f64; 3] {
         let length = self.direction.iter().map(|x| x * x).sum::<f64>().sqrt().max(f64::MIN_POSITIVE);
@@ -74,91 +87,38 @@ impl Sums {
     }
 }
 
-/// Sources of at least `threshold` cd/m². Pixels that touch, also by a corner, are one source, and so are sources whose middles lie within `radius`
-/// radians of a brighter one's; the second value has each pixel's source, from 1, or 0.
-pub(super) fn find(luminance: &[f32], view: &FisheyeView, threshold: f64, radius: f64) -> (Vec<GlareSource>, Vec<u32>) {
+/// Sources of at least `threshold` cd/m², as evalglare gathers them. Pixels within half the options' radius of each other are of one source, and so are those
+/// that touch. What is as bright as a peak within a source is one of its own. The second value has each pixel's source, from 1, or 0.
+pub(super) fn find(luminance: &[f32], view: &EyeView, threshold: f64, options: &GlareOptions) -> (Vec<GlareSource>, Vec<u32>) {
     let [width, _] = view.size();
-    let (mut labels, count) = connected(luminance, view, threshold);
-    let mut sums = vec![Sums::default(); count];
-    for (index, label) in labels.iter().enumerate().filter(|(_, label)| **label > 0) {
-        let Some(pixel) = view.pixel([index % width, index / width]) else { continue };
-        let light = f64::from(luminance[index]) * pixel.solid_angle;
-        let own = Sums {
-            light,
-            solid_angle: pixel.solid_angle,
-            direction: pixel.direction.map(|x| x * light),
-            illuminance: light * pixel.direction[2].max(0.0),
-        };
-        sums[*label as usize - 1].add(&own);
-    }
-    let (merged, place) = merge(&sums, radius);
-    labels.iter_mut().filter(|label| **label > 0).for_each(|label| *label = place[*label as usize - 1] as u32 + 1);
-    let source = |sums: &Sums| GlareSource {
-        luminance: sums.light / sums.solid_angle,
-        solid_angle: sums.solid_angle,
-        direction: sums.unit_direction(),
-        position_index: position_index(sums.unit_direction()),
-        illuminance: sums.illuminance,
+    let seen = |index: usize| view.pixel([index % width, index / width]);
+    let glares: Vec<usize> = (0..luminance.len()).filter(|index| f64::from(luminance[*index]) >= threshold).collect();
+    let pixels: Vec<Pixel> = glares.iter().filter_map(|index| seen(*index).map(|view| Pixel { index: *index, view })).collect();
+    let of_pixel = clusters(&pixels, width, options.radius, |_| 0);
+    let of_pixel = match options.peak {
+        Some(peak) => {
+            let is_peak = |at: usize| usize::from(f64::from(luminance[pixels[at].index]) >= peak);
+            // Peaks of other sources stay apart, and what is left of a source stays one.
+            let peaks = clusters(&pixels, width, options.radius, |at| 2 * of_pixel[at] + is_peak(at));
+            (0..pixels.len()).map(|at| if is_peak(at) == 1 { [of_pixel[at], 1 + peaks[at]] } else { [of_pixel[at], 0] }).collect()
+        }
+        None => of_pixel.iter().map(|source| [*source, 0]).collect::<Vec<_>>(),
     };
-    (merged.iter().map(source).collect(), labels)
-}
-
-/// Labels of connected pixels from 1, and how many there are.
-fn connected(luminance: &[f32], view: &FisheyeView, threshold: f64) -> (Vec<u32>, usize) {
-    let [width, height] = view.size();
-    let glares = |index: usize| f64::from(luminance[index]) >= threshold && view.pixel([index % width, index / width]).is_some();
-    let mut labels = vec![0u32; width * height];
-    let (mut count, mut waiting) = (0, Vec::new());
-    for start in 0..width * height {
-        if labels[start] != 0 || !glares(start) {
-            continue;
-        }
-        count += 1;
-        labels[start] = count;
-        waiting.push(start);
-        while let Some(index) = waiting.pop() {
-            let (x, y) = (index % width, index / width);
-            for near_y in y.saturating_sub(1)..(y + 2).min(height) {
-                for near_x in x.saturating_sub(1)..(x + 2).min(width) {
-                    let near = near_y * width + near_x;
-                    if labels[near] == 0 && glares(near) {
-                        labels[near] = count;
-                        waiting.push(near);
-                    }
-                }
-            }
-        }
+    let (mut sums, mut number) = (Vec::<Sums>::new(), HashMap::new());
+    let mut place = Vec::with_capacity(pixels.len());
+    for (pixel, source) in pixels.iter().zip(of_pixel) {
+        let at = *number.entry(source).or_insert_with(|| {
+            sums.push(Sums::default());
+            sums.len() - 1
+        });
+        sums[at].add(&pixel.view, f64::from(luminance[pixel.index]));
+        place.push(at);
     }
-    (labels, count as usize)
-}
-
-/// Gathers sources by their middles, those with the most light first; gives each one's new place.
-fn merge(sums: &[Sums], radius: f64) -> (Vec<Sums>, Vec<usize>) {
     let mut order: Vec<usize> = (0..sums.len()).collect();
     order.sort_by(|a, b| sums[*b].light.total_cmp(&sums[*a].light));
-    let (mut middles, mut merged, mut place) = (Vec::<[f64; 3]>::new(), Vec::<Sums>::new(), vec![0; sums.len()]);
-    // Cells about as wide as the radius: only near middles are compared.
-    let width = radius.max(1e-3);
-    let cell = |v: [f64; 3]| v.map(|x| (x / width).floor() as i32);
-    let mut cells: HashMap<[i32; 3], Vec<usize>> = HashMap::new();
-    for index in order {
-        let direction = sums[index].unit_direction();
-        let [x, y, z] = cell(direction);
-        let around = (0..27).map(|i| [x + i % 3 - 1, y + i / 3 % 3 - 1, z + i / 9 - 1]);
-        let near = around.filter_map(|cell| cells.get(&cell)).flatten().copied();
-        let cosine = |other: usize| (0..3).map(|i| middles[other][i] * direction[i]).sum::<f64>();
-        match near.filter(|other| cosine(*other) > radius.cos()).min() {
-            Some(other) => {
-                merged[other].add(&sums[index]);
-                place[index] = other;
-            }
-            None => {
-                place[index] = merged.len();
-                cells.entry(cell(direction)).or_default().push(merged.len());
-                middles.push(direction);
-                merged.push(sums[index]);
-            }
-        }
-    }
-    (merged, place)
+    let mut rank = vec![0; order.len()];
+    order.iter().enumerate().for_each(|(rank_of, source)| rank[*source] = rank_of);
+    let mut labels = vec![0u32; luminance.len()];
+    pixels.iter().zip(place).for_each(|(pixel, source)| labels[pixel.index] = rank[source] as u32 + 1);
+    (order.iter().map(|source| sums[*source].source()).collect(), labels)
 }

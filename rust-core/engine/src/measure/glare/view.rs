@@ -1,35 +1,14 @@
-//! How a fisheye picture's pixels lie around the eye.
+//! How the pixels of a picture lie around the eye.
 
-use crate::error::{Error, Result};
-use std::f64::consts::PI;
+use crate::{
+    error::{Error, Result},
+    film::{PictureProjection, PictureView},
+};
 
-/// A fisheye's projection.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FisheyeProjection {
-    /// The angle to the axis grows evenly from the middle (Radiance's `-vta`).
-    Equidistant,
-    /// Equal solid angles are equal areas.
-    Equisolid,
-    /// The sine of the angle grows evenly (Radiance's `-vth`).
-    Hemispherical,
-}
-
-impl FisheyeProjection {
-    /// All with their names.
-    pub const NAMES: [(Self, &'static str); 3] =
-        [(Self::Equidistant, "equidistant"), (Self::Equisolid, "equisolid"), (Self::Hemispherical, "hemispherical")];
-
-    /// What has the name.
-    pub fn by_name(name: &str) -> Option<Self> {
-        Self::NAMES.iter().find(|(_, known)| *known == name).map(|(projection, _)| *projection)
-    }
-}
-
-/// A picture around the line of sight: the field of view is a circle, or an ellipse, that touches the picture's four edges.
+/// A picture as an eye along its axis sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FisheyeView {
-    projection: FisheyeProjection,
-    half_fov: f64,
+pub struct EyeView {
+    picture: PictureView,
     size: [usize; 2],
 }
 
@@ -42,17 +21,21 @@ pub struct PixelView {
     pub solid_angle: f64,
 }
 
-impl FisheyeView {
-    /// `fov_deg` is the full field of view.
+impl EyeView {
+    /// A picture of so many columns and rows.
     ///
     /// # Errors
-    /// A field of view that the projection does not have.
-    pub fn new(projection: FisheyeProjection, fov_deg: f64, size: [usize; 2]) -> Result<Self> {
-        let most = if projection == FisheyeProjection::Hemispherical { 180.0 } else { 360.0 };
-        if !(fov_deg > 0.0 && fov_deg <= most) {
-            return Err(Error::setting("fov", format!("{fov_deg} was found, expected degrees above 0 and at most {most}")));
+    /// Parallel rays, which no eye sees by, and pictures without extent.
+    pub fn new(picture: PictureView, size: [usize; 2]) -> Result<Self> {
+        if picture.projection == PictureProjection::Orthographic {
+            let problem = "the picture was taken by parallel rays, which no eye sees by; expected a perspective or a fisheye picture";
+            return Err(Error::setting("projection", problem));
         }
-        Ok(Self { projection, half_fov: 0.5 * fov_deg.to_radians(), size })
+        let [left, right, bottom, top] = picture.window;
+        if !((right - left) * (top - bottom)).is_normal() {
+            return Err(Error::setting("fov", "the picture's field of view has no extent"));
+        }
+        Ok(Self { picture, size })
     }
 
     /// Columns and rows.
@@ -60,40 +43,23 @@ impl FisheyeView {
         self.size
     }
 
+    /// Width and height of a pixel in the picture's plane.
+    fn pixel_sides(&self) -> [f64; 2] {
+        let [left, right, bottom, top] = self.picture.window;
+        [(right - left) / self.size[0] as f64, (top - bottom) / self.size[1] as f64]
+    }
+
     /// Whether the picture shows all that lights the eye.
     pub fn covers_hemisphere(&self) -> bool {
-        self.half_fov >= 0.5 * PI * (1.0 - 1e-9)
+        self.picture.covers_hemisphere(self.pixel_sides())
     }
 
-    /// A pixel by its column and row from the top; none beyond the field of view.
+    /// A pixel by its column and row from the top; none where nothing is seen.
     pub fn pixel(&self, [x, y]: [usize; 2]) -> Option<PixelView> {
-        let place = [2.0 * (x as f64 + 0.5) / self.size[0] as f64 - 1.0, 1.0 - 2.0 * (y as f64 + 0.5) / self.size[1] as f64];
-        let radius = place[0].hypot(place[1]);
-        if radius > 1.0 {
-            return None;
-        }
-        let area = 4.0 / (self.size[0] * self.size[1]) as f64;
-        let (angle, solid_angle) = match self.projection {
-            FisheyeProjection::Equidistant => {
-                let angle = radius * self.half_fov;
-                (angle, sinc(angle) * self.half_fov * self.half_fov * area)
-            }
-            FisheyeProjection::Equisolid => {
-                let edge = (0.5 * self.half_fov).sin();
-                (2.0 * (radius * edge).asin(), 4.0 * edge * edge * area)
-            }
-            FisheyeProjection::Hemispherical => {
-                let edge = self.half_fov.sin();
-                let angle = (radius * edge).asin();
-                // The rim's pixels are seen edge on; their middles are not quite.
-                (angle, edge * edge * area / angle.cos().max(1e-6))
-            }
-        };
-        let across = if radius > 0.0 { angle.sin() / radius } else { 0.0 };
-        Some(PixelView { direction: [place[0] * across, place[1] * across, angle.cos()], solid_angle })
+        let [left, _, _, top] = self.picture.window;
+        let [width, height] = self.pixel_sides();
+        let place = [left + (x as f64 + 0.5) * width, top - (y as f64 + 0.5) * height];
+        let (direction, density) = self.picture.direction(place)?;
+        Some(PixelView { direction, solid_angle: density * (width * height).abs() })
     }
-}
-
-fn sinc(x: f64) -> f64 {
-    if x.abs() < 1e-8 { 1.0 } else { x.sin() / x }
 }
