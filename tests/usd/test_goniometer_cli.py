@@ -110,7 +110,6 @@ def test_text_says_where_the_light_went(run, lamp):
         (("--luminaire", "/World/Empty"), "no light"),
         (("--luminaire", "/World/Lamp", "--c-step", "7"), "c-step"),
         (("--luminaire", "/World/Lamp", "--error", "200%"), "error"),
-        (("--luminaire", "/World/Lamp", "--rays", "1e30"), "rays"),
         (("--luminaire", "/World/Lamp", "-o", "lamp.txt"), "lamp.txt"),
         (("--luminaire", "/World/Lamp", "--rays-file", "missing.ray"), "missing.ray"),
         (("--luminaire", "/World/Lamp", "--screen", "1,2"), "screen"),
@@ -119,6 +118,12 @@ def test_text_says_where_the_light_went(run, lamp):
 def test_what_cannot_be_measured_is_told(run, lamp, options, words):
     done = run("goniometer", lamp(), *options)
     assert done.returncode == 1 and words in done.stderr and done.stderr.count("\n") == 1, done.stderr
+
+
+@pytest.mark.parametrize("count", ["1e30", "5T", "0", "nan"])
+def test_counts_that_are_none_are_refused(run, lamp, count):
+    done = run("goniometer", lamp(), "--luminaire", "/World/Lamp", "--rays", count)
+    assert done.returncode == 2 and "--rays" in done.stderr, done.stderr
 
 
 def test_a_lamp_in_a_box_keeps_its_light(run, lamp):

@@ -83,6 +83,15 @@ def test_a_layer_of_primvars(run, stage, tmp_path):
     assert (lux * areas).sum() == pytest.approx(16 * under_lamp(side[:, None], side).mean(), rel=0.02)
 
 
+def test_a_width_that_is_asked_for_is_met_or_told(run, stage):
+    arguments = ("--prim", "/Room/Floor", "--texel", "0.1", "--paths", "64k")
+    said = run("map", stage, *arguments, "--error", "2%").stderr
+    assert "% of it has parts wider than the 0.1 m asked for" in said and "more than 2 %" in said
+    # Nothing is joined, or nothing is asked for.
+    assert "wider than" not in run("map", stage, *arguments, "--error", "0%").stderr
+    assert "wider than" not in run("map", stage, "--prim", "/Room/Floor", "--paths", "64k", "--error", "2%").stderr
+
+
 def test_textures_and_figures(run, stage, tmp_path):
     texture, layer = tmp_path / "floor.exr", tmp_path / "floor.usda"
     arguments = ["--prim", "/Room/Floor", "--uv", "st", "--resolution", 8, 8, "--error", "0%", "--paths", 1 << 20, "--json", "--quiet"]

@@ -75,6 +75,38 @@ def test_a_grid_on_a_prim_of_the_command_line(run, stage, tmp_path):
     assert picture.read_bytes().startswith(b"\x89PNG")
 
 
+def test_a_grid_keeps_what_its_prim_says(run, stage):
+    own = 'double gonio:grid:spacing = 100\n    double gonio:grid:margin = 50\n    token gonio:grid:quantity = "cylindrical"'
+    quick = ("--grid", "/Floor", "--integrator", "direct", "--spp", 16)
+    points = lambda floor, *arguments: (
+        lambda grid: (grid["quantity"], grid["columns"], grid["rows"])
+    )(measured(run, stage(floor), *quick, *arguments)["grids"][0])
+    assert points(own) == ("cylindrical", 3, 3)
+    assert points(own, "--spacing", 0.5) == ("cylindrical", 6, 6)
+    assert points(own, "--margin", 0, "--quantity", "illuminance") == ("illuminance", 4, 4)
+    # A prim that says nothing of a quantity is a grid by the option alone.
+    assert points("double gonio:grid:spacing = 200") == ("illuminance", 2, 2)
+    assert points("", "--spacing", 1) == ("illuminance", 4, 4)
+
+
+@pytest.mark.parametrize("spacing", ["nan", "inf"])
+def test_attributes_that_are_no_numbers_are_told(run, stage, spacing):
+    path = stage(f"double gonio:grid:spacing = {spacing}", 'def Xform "Meter" {\n    vector3d gonio:meter:normal = (nan, 0, 1)\n}')
+    done = run("measure", path, "--integrator", "direct", "--spp", 16)
+    assert done.returncode == 0 and "gonio:grid:spacing is" in done.stderr and "gonio:meter:normal is" in done.stderr
+
+
+@pytest.mark.parametrize("arguments", [("--spp", "4k"), ("--spp", "4e3"), ("-p", "4000"), ("--max-bounces", "1k", "--spp", "0.004M")])
+def test_counts_are_written_in_the_same_ways(run, stage, arguments):
+    assert measured(run, stage(), "--at", "0,0,0", "--integrator", "direct", *arguments)["meters"]
+
+
+@pytest.mark.parametrize("arguments", [("--spp", "2T"), ("--spp", "1.5"), ("--spp", "4M"), ("--spacing", "nan"), ("--margin", "inf"), ("--sun-elevation", "nan")])
+def test_numbers_that_are_none_are_refused(run, stage, arguments):
+    ended = run("measure", stage(), "--grid", "/Floor", *arguments, check=False)
+    assert ended.returncode == 2 and arguments[0] in ended.stderr
+
+
 @pytest.mark.parametrize("up", ["Y", "Z"])
 def test_attributes_of_surfaces_and_rectangles(run, stage, up):
     plane = """
@@ -165,7 +197,10 @@ def test_glare_of_a_disk(run, tmp_path):
     path = tmp_path / "disk.exr"
     with openexr.File({"compression": openexr.ZIP_COMPRESSION, "type": openexr.scanlineimage}, {"Luminance": luminance}) as out:
         out.write(str(path))
-    found = json.loads(run("glare", path, "--json", "-o", tmp_path / "sources.png").stdout)
+    # Nothing is guessed: the file does not say how it was taken.
+    unknown = run("glare", path, check=False)
+    assert unknown.returncode == 1 and "does not say how it was taken" in unknown.stderr and "--projection" in unknown.stderr
+    found = json.loads(run("glare", path, "--projection", "equidistant", "--json", "-o", tmp_path / "sources.png").stdout)
     half = math.radians(5)
     solid_angle = 2 * math.pi * (1 - math.cos(half))
     of_disk = math.pi * math.sin(half) ** 2
@@ -177,9 +212,17 @@ def test_glare_of_a_disk(run, tmp_path):
     assert found["dgp"] == pytest.approx(dgp, abs=1e-3)
     assert found["eye_illuminance_lx"] == pytest.approx(eye, rel=3e-3)
     assert len(found["sources"]) == 1
-    from_python = gonio.glare(luminance)
+    from_python = gonio.glare(luminance, projection="equidistant")
     assert from_python.ugr == pytest.approx(found["ugr"]) and from_python.dgp == pytest.approx(found["dgp"])
-    assert run("glare", path, "--fov", 120, check=False).returncode == 1
+    assert run("glare", path, "--fov", 120, check=False).returncode == 2
+    assert run("glare", path, "--projection", "perspective", check=False).returncode == 1
+    narrow = json.loads(run("glare", path, "--projection", "equidistant", "--fov", 120, "--json").stdout)
+    assert narrow["dgp"] is None and narrow["eye_illuminance_lx"] is None
+    # sin² 60° of what lights the eye.
+    assert narrow["share_seen"] == pytest.approx(0.75, abs=2e-3)
+    said = run("glare", path, "--projection", "equidistant", "--fov", 120).stdout
+    assert "of the 75 % of what lights the eye" in said and "DGP: not known" in said
+    assert json.loads(run("glare", path, "--projection", "equidistant", "--fov", 120, "--illuminance", 500, "--json").stdout)["dgp"] > 0.16
 
 
 def test_observers_rate_luminaires(run, stage):
@@ -225,6 +268,7 @@ def test_glare_of_a_stage(run, tmp_path):
     stage.write_text(EYE)
     arguments = ("--res", 400, 400, "--spp", 16, "--filter", "box", "--filter-width", 1, "--aov", "luminance")
     assert run("render", stage, "-o", image, *arguments, "--quiet").returncode == 0
+    # The file says that it is a fisheye of 180°.
     found = json.loads(run("glare", image, "--json").stdout)
     half = math.asin(0.1)
     of_disk = math.pi * math.sin(half) ** 2
@@ -233,3 +277,27 @@ def test_glare_of_a_stage(run, tmp_path):
     # The rim's pixels are darker than the disk and counted with it: a pixel of 26 across is 0.3 in 8 log10.
     assert found["ugr"] == pytest.approx(ugr, abs=0.3)
     assert found["eye_illuminance_lx"] == pytest.approx(of_disk * 5000 + math.pi * background, rel=0.01)
+
+
+def test_glare_of_perspectives_and_of_parts_of_pictures(run, tmp_path):
+    """A sphere of 0.1 m at 1 m, 20° above the line of sight: a perspective and a fisheye show the same source, and their files say what they are."""
+    sources = {}
+    stage = EYE.replace("(0, 1, 0)", f"(0, {math.cos(math.radians(20))}, {math.sin(math.radians(20))})")
+    for name, lens, arguments in (
+        ("round", "double gonio:fisheye = 180", ("--res", 600, 600)),
+        ("flat", "float focalLength = 10\n float horizontalAperture = 20\n float verticalAperture = 11.25", ("--res", 640, 360)),
+    ):
+        (tmp_path / "eye.usda").write_text(stage.replace("double gonio:fisheye = 180", lens))
+        image = tmp_path / f"{name}.exr"
+        done = run("render", tmp_path / "eye.usda", "-o", image, *arguments, "--spp", 4, "--filter", "box", "--filter-width", 1, "--aov", "luminance", "--quiet")
+        assert done.returncode == 0, done.stderr
+        sources[name] = json.loads(run("glare", image, "--json").stdout)
+    flat, whole = sources["flat"], sources["round"]
+    assert flat["dgp"] is None and whole["dgp"] == pytest.approx(0.2, abs=0.1)
+    for key in ("solid_angle_sr", "position_index", "luminance_cd_m2"):
+        assert flat["sources"][0][key] == pytest.approx(whole["sources"][0][key], rel=0.03), key
+    assert flat["sources"][0]["direction_deg"] == pytest.approx([0, 20], abs=0.2)
+    assert flat["ugr"] == pytest.approx(whole["ugr"], abs=0.3)
+    # 45° to each side and 9/16 of that up, and their projected solid angle.
+    side = lambda x, y: x / math.hypot(1, x) * math.atan(y / math.hypot(1, x))
+    assert flat["share_seen"] == pytest.approx(2 * (side(1, 0.5625) + side(0.5625, 1)) / math.pi, abs=1e-3)

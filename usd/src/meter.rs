@@ -42,9 +42,8 @@ fn grid<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, mesh: Option<Mesh
         None => rectangle(context, prim, transform)?,
     };
     let [_, ahead] = axes(context.up_axis);
-    let facing = context.get_authored(prim, &format!("{GRID}facing")).unwrap_or(ahead);
-    let mut length = |name: &str| context.get_authored::<f64>(prim, &format!("{GRID}{name}")).unwrap_or(0.0) * context.metres_per_unit;
-    let [spacing, margin, height] = ["spacing", "margin", "height"].map(&mut length);
+    let facing = direction(context, prim, &format!("{GRID}facing"), ahead);
+    let [spacing, margin, height] = ["spacing", "margin", "height"].map(|name| length(context, prim, &format!("{GRID}{name}")));
     Some(Grid { origin: prim.origin(), area, spacing, margin, height, facing: transform.vector(facing), measurand })
 }
 
@@ -64,8 +63,8 @@ fn rectangle<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, transform: &
 fn meter<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, transform: &Transform) -> Option<Meter> {
     let measurand = measurand(context, prim, METER)?;
     let [up, ahead] = axes(context.up_axis);
-    let mut direction = |name: &str, otherwise| context.get_authored(prim, &format!("{METER}{name}")).unwrap_or(otherwise);
-    let (normal, facing) = (direction("normal", up), direction("facing", ahead));
+    let mut of = |name: &str, otherwise| direction(context, prim, &format!("{METER}{name}"), otherwise);
+    let (normal, facing) = (of("normal", up), of("facing", ahead));
     Some(Meter {
         origin: prim.origin(),
         position: transform.point([0.0; 3]),
@@ -73,6 +72,26 @@ fn meter<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, transform: &Tran
         facing: transform.vector(facing),
         measurand,
     })
+}
+
+/// A length in metres, 0 where none is said; what is no number is told.
+fn length<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, name: &str) -> f64 {
+    let found = context.get_authored::<f64>(prim, name).unwrap_or(0.0);
+    if found.is_finite() {
+        return found * context.metres_per_unit;
+    }
+    context.warn(&prim.origin(), format!("{name} is {found}, expected a number; 0 is used"));
+    0.0
+}
+
+/// A direction; what is no number is told.
+fn direction<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, name: &str, otherwise: [f64; 3]) -> [f64; 3] {
+    let found: [f64; 3] = context.get_authored(prim, name).unwrap_or(otherwise);
+    if found.iter().all(|x| x.is_finite()) {
+        return found;
+    }
+    context.warn(&prim.origin(), format!("{name} is {found:?}, expected numbers; {otherwise:?} is used"));
+    otherwise
 }
 
 /// What is measured; without a word of it, illuminance.

@@ -55,8 +55,10 @@ fn emitted(light: &Light, extents: [f64; 3]) -> (f64, &'static str) {
         (_, LightShape::Point | LightShape::Opening(_)) => "cd",
         _ => "cd/m²",
     };
-    let factor = if light.emission.normalized { area(light.shape, extents) / light.emission.metres_per_unit.powi(2) } else { 1.0 };
-    (if factor > 0.0 { strength / factor } else { strength }, unit)
+    let normalized_by = area(light.shape, extents).filter(|area| light.emission.normalized && *area > 0.0);
+    // Areas are those of the stage's own units.
+    let factor = normalized_by.map_or(1.0, |area| area / light.emission.metres_per_unit.powi(2));
+    (strength / factor, unit)
 }
 
 /// Lengths in metres in the world along the shape's own axes; a radius counts as a diameter.
@@ -72,14 +74,14 @@ pub(super) fn extents(light: &Light) -> [f64; 3] {
     [0, 1, 2].map(|axis| own[axis] * scale(axis))
 }
 
-/// Square metres that shine, as UsdLux counts them; 1 for what it does not divide by.
-fn area(shape: LightShape, [x, y, _]: [f64; 3]) -> f64 {
+/// Square metres that shine, as UsdLux counts them; none of lights that have no size of their own.
+fn area(shape: LightShape, [x, y, _]: [f64; 3]) -> Option<f64> {
     match shape {
-        LightShape::Rectangle { .. } => x * y,
-        LightShape::Disk { .. } | LightShape::Ellipse { .. } | LightShape::FacingDisk { .. } => 0.25 * PI * x * y,
-        LightShape::Sphere { .. } => PI * x * x,
-        LightShape::Cylinder { .. } => PI * y * x,
-        _ => 1.0,
+        LightShape::Rectangle { .. } => Some(x * y),
+        LightShape::Disk { .. } | LightShape::Ellipse { .. } | LightShape::FacingDisk { .. } => Some(0.25 * PI * x * y),
+        LightShape::Sphere { .. } => Some(PI * x * x),
+        LightShape::Cylinder { .. } => Some(PI * y * x),
+        _ => None,
     }
 }
 
@@ -119,7 +121,12 @@ mod tests {
         // Normalized lights are divided by their area in square units of the stage: 120 × 60.
         let normalized = Emission { normalized: true, metres_per_unit: 0.01, ..plain(7200.0) };
         assert_eq!(light(LightShape::Rectangle { width: 120.0, height: 60.0 }, 0.01, normalized), "rectangle 1.2 × 0.6 m, 1 cd/m²");
-        let sun = Emission { normalized: true, ..plain(100_000.2) };
-        assert_eq!(light(LightShape::Distant { angle_deg: 0.53 }, 1.0, sun), "distant, 0.53 degrees, 100000 lx on a facing surface");
+        // A sun has no area, in whatever unit.
+        for metres_per_unit in [1.0, 0.01, 0.001, 0.3048] {
+            let sun = Emission { normalized: true, metres_per_unit, ..plain(50_000.2) };
+            assert_eq!(light(LightShape::Distant { angle_deg: 0.53 }, 1.0, sun), "distant, 0.53 degrees, 50000 lx on a facing surface");
+            let point = Emission { normalized: true, metres_per_unit, ..plain(80.0) };
+            assert_eq!(light(LightShape::Point, 1.0, point), "point, 80 cd");
+        }
     }
 }

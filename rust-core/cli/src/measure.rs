@@ -31,16 +31,13 @@ pub(super) fn measure(py: Python<'_>, options: &MeasureOptions, interrupted: &'s
     for (option, path, ending) in [("output", &options.output, "png"), ("csv", &options.csv, "csv")] {
         path.iter().try_for_each(|path| check_ending(option, path, &[ending]))?;
     }
-    let measurand = Measurand::by_name(&options.quantity).ok_or_else(|| {
-        let expected = Measurand::NAMES.map(|(_, name)| name).join(", ");
-        Error::setting("quantity", format!("'{}' was found, expected one of {expected}", options.quantity))
-    })?;
+    let measurand = options.quantity.as_deref().map(measurand).transpose()?;
     let mut stage_options = stage_options(&options.stage)?;
     stage_options.time = options.frame.map_or(SampleTime::Start, SampleTime::Code);
     let stage = Stage::open(py, &options.stage.stage, &stage_options)?;
     author_grids(py, &stage, &options.grids, measurand)?;
     let mut loaded = stage.load(py, &stage_options, interrupted)?;
-    let points = points(options, measurand, loaded.info.up_axis)?;
+    let points = points(options, measurand.unwrap_or(Measurand::Illuminance), loaded.info.up_axis)?;
     if !points.is_empty() {
         // Who asks for a point has not asked for what the stage would measure besides.
         loaded.scene.meters.clear();
@@ -50,10 +47,17 @@ pub(super) fn measure(py: Python<'_>, options: &MeasureOptions, interrupted: &'s
     py.detach(|| run(options, loaded, interrupted))
 }
 
-/// Makes the prims that the command line names grids.
-pub(super) fn author_grids(py: Python<'_>, stage: &Stage, grids: &GridArguments, measurand: Measurand) -> Result<()> {
+fn measurand(name: &str) -> Result<Measurand> {
+    Measurand::by_name(name).ok_or_else(|| {
+        let expected = Measurand::NAMES.map(|(_, name)| name).join(", ");
+        Error::setting("quantity", format!("'{name}' was found, expected one of {expected}"))
+    })
+}
+
+/// Makes the prims that the command line names grids; without a quantity they measure their own, else illuminance.
+pub(super) fn author_grids(py: Python<'_>, stage: &Stage, grids: &GridArguments, measurand: Option<Measurand>) -> Result<()> {
     let lengths = [grids.spacing, grids.margin, grids.height];
-    grids.grid.iter().try_for_each(|prim| stage.author_grid(py, prim, measurand.name(), lengths))
+    grids.grid.iter().try_for_each(|prim| stage.author_grid(py, prim, measurand.map(Measurand::name), lengths))
 }
 
 fn run(options: &MeasureOptions, mut loaded: Loaded, interrupted: &'static AtomicBool) -> Result<i32> {

@@ -7,11 +7,11 @@ use gonio::{Error, Result};
 use pyo3::prelude::*;
 
 impl Stage {
-    /// Makes a prim a calculation grid, in the session layer; lengths are spacing, margin and height in metres.
+    /// Makes a prim a calculation grid, in the session layer; lengths are spacing, margin and height in metres. What is not given stays as the prim has it.
     ///
     /// # Errors
     /// There is no such prim, or its attributes cannot be written.
-    pub fn author_grid(&self, py: Python<'_>, prim: &str, quantity: &str, lengths: [f64; 3]) -> Result<()> {
+    pub fn author_grid(&self, py: Python<'_>, prim: &str, quantity: Option<&str>, lengths: [Option<f64>; 3]) -> Result<()> {
         let problem = |text: String| Error::Setting { name: "grid".into(), problem: text };
         let author = || -> PyResult<bool> {
             let stage = self.object.bind(py);
@@ -24,9 +24,15 @@ impl Stage {
                 let attribute = found.object().call_method1("CreateAttribute", (format!("gonio:grid:{name}"), types.getattr(kind)?))?;
                 attribute.call_method1("Set", (value,)).map(drop)
             };
-            set("quantity", "Token", quantity.into_pyobject(py)?.into_any())?;
+            // The quantity alone makes a prim a grid.
+            let own = found.has_authored("gonio:grid:quantity");
+            if let Some(quantity) = quantity.or((!own).then_some("illuminance")) {
+                set("quantity", "Token", quantity.into_pyobject(py)?.into_any())?;
+            }
             for (name, length) in ["spacing", "margin", "height"].into_iter().zip(lengths) {
-                set(name, "Double", (length / self.info.metres_per_unit).into_pyobject(py)?.into_any())?;
+                if let Some(length) = length {
+                    set(name, "Double", (length / self.info.metres_per_unit).into_pyobject(py)?.into_any())?;
+                }
             }
             Ok(true)
         };

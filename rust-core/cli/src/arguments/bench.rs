@@ -1,5 +1,6 @@
 //! What `gonio bench` takes.
 
+use super::number::count;
 use clap::Args;
 use gonio_bench::Stage;
 use std::path::PathBuf;
@@ -13,7 +14,7 @@ pub(crate) struct BenchOptions {
     #[arg(long, value_name = "SECONDS", default_value_t = 0.5, value_parser = seconds)]
     pub(crate) seconds: f64,
     /// Worker threads of whole renders; 0 takes one a core.
-    #[arg(long, short = 'j', value_name = "COUNT", default_value_t = 1)]
+    #[arg(long, short = 'j', value_name = "COUNT", default_value_t = 1, value_parser = count::<u32>(0..=u64::from(u32::MAX)))]
     pub(crate) threads: u32,
     /// Render this scene bundle instead of the benchmark's own scenes.
     #[arg(long, value_name = "BUNDLE")]

@@ -1,5 +1,6 @@
 //! What `gonio bsdf` takes.
 
+use super::number::{count, finite};
 use super::{WorkArguments, goniometer::AxisName};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -69,7 +70,7 @@ pub(crate) struct SampleArguments {
     #[arg(long, value_name = "PRIMPATH", requires = "sample")]
     pub(crate) prim: Option<String>,
     /// The frame to measure.
-    #[arg(long, short = 'f', value_name = "FRAME", allow_hyphen_values = true, requires = "sample")]
+    #[arg(long, short = 'f', value_name = "FRAME", allow_hyphen_values = true, requires = "sample", value_parser = finite::<f64>)]
     pub(crate) frame: Option<f64>,
     /// The axis of the stage that the front looks along: z of the material. In a window the front is the room's side.
     #[arg(long, value_enum, default_value_t = AxisName::Z, allow_hyphen_values = true, requires = "sample")]
@@ -81,7 +82,7 @@ pub(crate) struct SampleArguments {
     #[arg(long, num_args = 2, value_names = ["X,Y", "X,Y"], allow_hyphen_values = true, requires = "sample")]
     pub(crate) window: Option<Vec<String>>,
     /// Repeat the sample so many times on every side, by the window's size.
-    #[arg(long, value_name = "COUNT", default_value_t = 0, requires = "sample")]
+    #[arg(long, value_name = "COUNT", default_value_t = 0, requires = "sample", value_parser = count::<u32>(0..=u64::from(u32::MAX)))]
     pub(crate) repeat: u32,
     /// The patches of directions.
     #[arg(long, value_enum, default_value_t = BasisName::Full, requires = "sample")]
@@ -96,10 +97,10 @@ pub(crate) struct SampleArguments {
     #[arg(long, value_name = "SHARE", default_value = "3%", requires = "sample")]
     pub(crate) error: String,
     /// Most rays from each patch.
-    #[arg(long, value_name = "COUNT", default_value_t = 1 << 20, requires = "sample")]
+    #[arg(long, value_name = "COUNT", default_value_t = 1 << 20, requires = "sample", value_parser = count::<u64>(1..=u64::MAX))]
     pub(crate) rays: u64,
     /// Stop after this many seconds.
-    #[arg(long = "time-limit", value_name = "SECONDS", requires = "sample")]
+    #[arg(long = "time-limit", value_name = "SECONDS", requires = "sample", value_parser = finite::<f64>)]
     pub(crate) time_limit: Option<f64>,
     #[command(flatten)]
     pub(crate) work: WorkArguments,

@@ -1,6 +1,7 @@
 //! What `gonio render` takes for checkpoints, and `gonio merge` for joining them.
 
 use super::OutputArguments;
+use super::number::finite;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -12,7 +13,7 @@ pub(crate) struct CheckpointArguments {
     #[arg(long, value_name = "FILE")]
     pub(crate) checkpoint: Option<PathBuf>,
     /// Seconds between checkpoints; where writing one takes long, at least twenty times as long as that.
-    #[arg(long = "checkpoint-every", value_name = "SECONDS", default_value_t = 60.0, requires = "checkpoint")]
+    #[arg(long = "checkpoint-every", value_name = "SECONDS", default_value_t = 60.0, requires = "checkpoint", value_parser = finite::<f64>)]
     pub(crate) checkpoint_every: f64,
     /// Go on with the checkpoint where there is one, to the same bits as without the interruption.
     #[arg(long, requires = "checkpoint")]

@@ -1,5 +1,6 @@
 //! What `gonio falsecolor` takes, and the steps that it shares with others.
 
+use super::number::{count, finite};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -8,13 +9,13 @@ use std::path::PathBuf;
 #[command(next_help_heading = "False colour")]
 pub(crate) struct ScaleArguments {
     /// The upper end of the scale; without it a round number that nearly all values stay below.
-    #[arg(long, value_name = "VALUE")]
+    #[arg(long, value_name = "VALUE", value_parser = finite::<f32>)]
     pub(crate) max: Option<f32>,
     /// Steps of the scale.
-    #[arg(long, value_name = "COUNT", default_value_t = 10)]
+    #[arg(long, value_name = "COUNT", default_value_t = 10, value_parser = count::<u32>(0..=u64::from(u32::MAX)))]
     pub(crate) steps: u32,
     /// Steps that are even in the logarithm, over so many decades.
-    #[arg(long, value_name = "DECADES")]
+    #[arg(long, value_name = "DECADES", value_parser = finite::<f32>)]
     pub(crate) log: Option<f32>,
 }
 

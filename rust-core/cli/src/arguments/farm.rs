@@ -1,5 +1,6 @@
 //! What `gonio render` takes for rendering on many machines.
 
+use super::number::count;
 use clap::Args;
 
 /// Renders spread over a Dask cluster.
@@ -10,7 +11,7 @@ pub(crate) struct FarmArguments {
     #[arg(long, value_name = "ADDRESS", conflicts_with_all = ["list_cameras", "checkpoint", "samples", "part", "time_limit", "threads"])]
     pub(crate) dask: Option<String>,
     /// Parts that each frame is cut into; without it as many as give every worker four, over all frames.
-    #[arg(long = "dask-parts", value_name = "COUNT", requires = "dask", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(long = "dask-parts", value_name = "COUNT", requires = "dask", value_parser = count::<u32>(1..=100_000))]
     pub(crate) dask_parts: Option<u32>,
     /// Send the scene and its images to the workers, once for each frame; without it they read the stage and its files under the same paths as this machine.
     #[arg(long = "dask-send", requires = "dask")]

@@ -1,7 +1,9 @@
 //! What `gonio goniometer` takes.
 
+use super::number::{count, finite};
 use super::{StageArguments, SymmetryName, WorkArguments};
 use clap::{Args, ValueEnum};
+use gonio::goniometer::MOST_RAYS;
 use std::path::PathBuf;
 
 /// The end of `gonio goniometer --help`.
@@ -26,13 +28,13 @@ pub(crate) struct GoniometerOptions {
     #[arg(long, short = 'o', value_name = "FILE.ldt|FILE.ies|FILE.xml")]
     pub(crate) output: Vec<PathBuf>,
     /// The frame to measure.
-    #[arg(long, short = 'f', value_name = "FRAME", allow_hyphen_values = true)]
+    #[arg(long, short = 'f', value_name = "FRAME", allow_hyphen_values = true, value_parser = finite::<f64>)]
     pub(crate) frame: Option<f64>,
     /// Degrees from C plane to C plane; 360 is divided by it.
-    #[arg(long = "c-step", value_name = "DEGREES", default_value_t = 15.0)]
+    #[arg(long = "c-step", value_name = "DEGREES", default_value_t = 15.0, value_parser = finite::<f64>)]
     pub(crate) c_step: f64,
     /// Degrees from γ to γ, from 0 to 180; 180 is divided by it. Steps that have 90 among them keep light below the horizon apart from light above it.
-    #[arg(long = "g-step", value_name = "DEGREES", default_value_t = 5.0, conflicts_with = "gammas")]
+    #[arg(long = "g-step", value_name = "DEGREES", default_value_t = 5.0, conflicts_with = "gammas", value_parser = finite::<f64>)]
     pub(crate) g_step: f64,
     /// The γ in degrees in its place: numbers and ranges FIRST:LAST:STEP, separated by commas.
     #[arg(long, value_name = "LIST")]
@@ -44,16 +46,16 @@ pub(crate) struct GoniometerOptions {
     #[arg(long, value_name = "SHARE", default_value = "1%")]
     pub(crate) error: String,
     /// Most rays: 500000, 2e9, 200M.
-    #[arg(long, value_name = "COUNT", default_value = "200M")]
-    pub(crate) rays: String,
+    #[arg(long, value_name = "COUNT", default_value = "200M", value_parser = count::<u64>(1..=MOST_RAYS))]
+    pub(crate) rays: u64,
     /// Stop after this many seconds.
-    #[arg(long = "time-limit", value_name = "SECONDS")]
+    #[arg(long = "time-limit", value_name = "SECONDS", value_parser = finite::<f64>)]
     pub(crate) time_limit: Option<f64>,
     /// A source that is known by its rays, in the axes of a prim or of the luminaire: TM-25, Zemax and LightTools files; may be given several times.
     #[arg(long = "rays-file", value_name = "FILE[@PRIMPATH]")]
     pub(crate) rays_file: Vec<String>,
     /// Flux in lm of the ray files together, for those that tell none or another one.
-    #[arg(long = "rays-flux", value_name = "LUMENS", requires = "rays_file")]
+    #[arg(long = "rays-flux", value_name = "LUMENS", requires = "rays_file", value_parser = finite::<f64>)]
     pub(crate) rays_flux: Option<f64>,
     /// Where γ = 0 looks in the luminaire's own axes.
     #[arg(long, value_enum, default_value_t = AxisName::NegativeZ, allow_hyphen_values = true)]
@@ -81,7 +83,7 @@ pub(crate) struct GoniometerOptions {
     #[arg(long, value_name = "TEXT", default_value = "")]
     pub(crate) manufacturer: String,
     /// Its connected power in the files.
-    #[arg(long, value_name = "WATTS")]
+    #[arg(long, value_name = "WATTS", value_parser = finite::<f64>)]
     pub(crate) watts: Option<f64>,
     /// For machines.
     #[arg(long)]

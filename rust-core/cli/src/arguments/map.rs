@@ -1,5 +1,6 @@
 //! What `gonio map` takes.
 
+use super::number::{count, finite};
 use super::{DaylightArguments, ScaleArguments, StageArguments, TextureArguments, WorkArguments};
 use clap::Args;
 use std::path::PathBuf;
@@ -15,7 +16,7 @@ pub(crate) struct MapArguments {
     #[command(flatten)]
     pub(crate) stage: StageArguments,
     /// The frame.
-    #[arg(long, short = 'f', value_name = "FRAME", allow_hyphen_values = true)]
+    #[arg(long, short = 'f', value_name = "FRAME", allow_hyphen_values = true, value_parser = finite::<f64>)]
     pub(crate) frame: Option<f64>,
     /// Keep light on this prim and all below it; may be given several times, without it all surfaces keep theirs.
     #[arg(long, value_name = "PRIMPATH")]
@@ -24,7 +25,7 @@ pub(crate) struct MapArguments {
     #[arg(long, value_name = "PRIMVAR")]
     pub(crate) uv: Option<String>,
     /// Metres that texels are wide, or divided triangles at most as square metres; without it there are about 65,000 in all.
-    #[arg(long, value_name = "METRES")]
+    #[arg(long, value_name = "METRES", value_parser = finite::<f64>)]
     pub(crate) texel: Option<f64>,
     /// Width and height in texels instead of their size.
     #[arg(long, num_args = 2, value_names = ["WIDTH", "HEIGHT"], requires = "uv", conflicts_with = "texel")]
@@ -34,10 +35,10 @@ pub(crate) struct MapArguments {
     #[arg(long, value_name = "SHARE", default_value = "5%")]
     pub(crate) error: String,
     /// Stop after so many light paths.
-    #[arg(long, value_name = "COUNT", default_value_t = 1 << 26)]
+    #[arg(long, value_name = "COUNT", default_value_t = 1 << 26, value_parser = count::<u64>(1..=u64::MAX))]
     pub(crate) paths: u64,
     /// Stop after so many seconds.
-    #[arg(long = "time-limit", value_name = "SECONDS", default_value_t = 0.0)]
+    #[arg(long = "time-limit", value_name = "SECONDS", default_value_t = 0.0, value_parser = finite::<f64>)]
     pub(crate) time_limit: f64,
     /// Keep red, green and blue too.
     #[arg(long)]
@@ -46,7 +47,7 @@ pub(crate) struct MapArguments {
     #[arg(long, value_name = "MIB", default_value_t = 1024)]
     pub(crate) memory: u64,
     /// Limit of the bounces; without one all count that matter.
-    #[arg(long = "max-bounces", value_name = "COUNT")]
+    #[arg(long = "max-bounces", value_name = "COUNT", value_parser = count::<u32>(0..=u64::from(u32::MAX)))]
     pub(crate) max_bounces: Option<u32>,
     /// What to write: .exr (textures, with --uv), .usda (a layer over the stage with primvars, or the textures' names), .png (a view in false
     /// colour); may be given several times. With several textures the prims' names are put before the ending.

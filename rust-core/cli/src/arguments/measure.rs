@@ -1,5 +1,6 @@
 //! What `gonio measure` takes, and the grids that it shares with `gonio report`.
 
+use super::number::{count, finite};
 use super::{DaylightArguments, IntegratorArgument, ScaleArguments, StageArguments, TextureArguments, WorkArguments};
 use clap::Args;
 use std::path::PathBuf;
@@ -17,15 +18,15 @@ pub(crate) struct GridArguments {
     /// Lay a grid over this prim's surface; may be given several times.
     #[arg(long, value_name = "PRIMPATH")]
     pub(crate) grid: Vec<String>,
-    /// Metres from point to point of these grids; without it as EN 12464-1 has it.
-    #[arg(long, value_name = "METRES", default_value_t = 0.0, requires = "grid")]
-    pub(crate) spacing: f64,
-    /// Metres along the edges that these grids leave out.
-    #[arg(long, value_name = "METRES", default_value_t = 0.0, requires = "grid")]
-    pub(crate) margin: f64,
-    /// Metres from the surface to these grids.
-    #[arg(long, value_name = "METRES", default_value_t = 0.0, allow_hyphen_values = true, requires = "grid")]
-    pub(crate) height: f64,
+    /// Metres from point to point of these grids; without it as the prim says, else as EN 12464-1 has it.
+    #[arg(long, value_name = "METRES", requires = "grid", value_parser = finite::<f64>)]
+    pub(crate) spacing: Option<f64>,
+    /// Metres along the edges that these grids leave out; without it as the prim says, else 0.
+    #[arg(long, value_name = "METRES", requires = "grid", value_parser = finite::<f64>)]
+    pub(crate) margin: Option<f64>,
+    /// Metres from the surface to these grids; without it as the prim says, else 0.
+    #[arg(long, value_name = "METRES", allow_hyphen_values = true, requires = "grid", value_parser = finite::<f64>)]
+    pub(crate) height: Option<f64>,
 }
 
 #[derive(Args, Debug)]
@@ -33,7 +34,7 @@ pub(crate) struct MeasureOptions {
     #[command(flatten)]
     pub(crate) stage: StageArguments,
     /// The frame to measure.
-    #[arg(long, short = 'f', value_name = "FRAME", allow_hyphen_values = true)]
+    #[arg(long, short = 'f', value_name = "FRAME", allow_hyphen_values = true, value_parser = finite::<f64>)]
     pub(crate) frame: Option<f64>,
     #[command(flatten)]
     pub(crate) grids: GridArguments,
@@ -46,9 +47,9 @@ pub(crate) struct MeasureOptions {
     /// Where half cylinders, luminance meters and eyes at these points face; without it +Y where Z is up, -Z where Y is up.
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, requires = "at")]
     pub(crate) facing: Option<String>,
-    /// What these grids and points measure: illuminance, cylindrical, semicylindrical (lx), daylight-factor (%), luminance (cd/m²), ugr (the luminaires' glare at an eye there).
-    #[arg(long, value_name = "QUANTITY", default_value = "illuminance")]
-    pub(crate) quantity: String,
+    /// What these grids and points measure: illuminance, cylindrical, semicylindrical (lx), daylight-factor (%), luminance (cd/m²), ugr (the luminaires' glare at an eye there); without it as the grid's prim says, else illuminance.
+    #[arg(long, value_name = "QUANTITY")]
+    pub(crate) quantity: Option<String>,
     /// Draw the grid in false colour with its values; with several grids the prim's name is put before the ending.
     #[arg(long, short = 'o', value_name = "FILE.png")]
     pub(crate) output: Option<PathBuf>,
@@ -61,10 +62,10 @@ pub(crate) struct MeasureOptions {
     #[command(flatten)]
     pub(crate) scale: ScaleArguments,
     /// Samples a point.
-    #[arg(long, short = 'p', value_name = "COUNT", default_value_t = 4096, value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    #[arg(long, short = 'p', value_name = "COUNT", default_value_t = 4096, value_parser = count::<u32>(1..=1 << 20))]
     pub(crate) spp: u32,
     /// Limit of the bounces; without one all count that matter.
-    #[arg(long = "max-bounces", value_name = "COUNT")]
+    #[arg(long = "max-bounces", value_name = "COUNT", value_parser = count::<u32>(0..=u64::from(u32::MAX)))]
     pub(crate) max_bounces: Option<u32>,
     /// The light transport: full global illumination, direct light alone, or direct light without noise, for which --spp 1 is enough.
     #[arg(long, value_enum, default_value_t = IntegratorArgument::Path)]

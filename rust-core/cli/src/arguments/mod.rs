@@ -12,6 +12,7 @@ mod goniometer;
 mod info;
 mod map;
 mod measure;
+mod number;
 mod output;
 mod photometry;
 mod picture;

@@ -1,5 +1,6 @@
 //! What `gonio photometry` takes.
 
+use super::number::finite;
 use clap::{Args, ValueEnum};
 use gonio_formats::photometry::CATALOGUE_SPACING;
 use std::path::PathBuf;
@@ -15,10 +16,10 @@ pub(crate) struct PhotometryOptions {
     #[arg(long = "ugr-table")]
     pub(crate) ugr_table: bool,
     /// Distance of the UGR table's luminaires over their height above the eye; catalogues have 0.25.
-    #[arg(long, value_name = "RATIO", default_value_t = CATALOGUE_SPACING, requires = "ugr_table")]
+    #[arg(long, value_name = "RATIO", default_value_t = CATALOGUE_SPACING, requires = "ugr_table", value_parser = finite::<f64>)]
     pub(crate) shr: f64,
     /// The C plane that faces the street, for the BUG rating; without it C90 of EULUMDAT files and C0 of others.
-    #[arg(long, value_name = "DEGREES", allow_hyphen_values = true)]
+    #[arg(long, value_name = "DEGREES", allow_hyphen_values = true, value_parser = finite::<f64>)]
     pub(crate) front: Option<f64>,
     /// Draw the polar diagram, in cd/klm.
     #[arg(long, value_name = "FILE.svg|FILE.png")]
@@ -33,10 +34,10 @@ pub(crate) struct PhotometryOptions {
     #[arg(long = "lamp-set", value_name = "NUMBER", value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) lamp_set: Option<u32>,
     /// Take the lamp's factor at this tilt of the luminaire, in files with tilt factors.
-    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_hyphen_values = true)]
+    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_hyphen_values = true, value_parser = finite::<f64>)]
     pub(crate) tilt: f64,
     /// Turn the luminaire about its vertical axis, from C0 towards C90.
-    #[arg(long, value_name = "DEGREES", allow_hyphen_values = true)]
+    #[arg(long, value_name = "DEGREES", allow_hyphen_values = true, value_parser = finite::<f64>)]
     pub(crate) rotate: Option<f64>,
     /// Give it a symmetry, after it was turned: intensities that become equal are averaged.
     #[arg(long, value_enum)]

@@ -1,5 +1,6 @@
 //! What the commands take that work on rendered pictures: `gonio compare` and `gonio relight`.
 
+use super::number::finite;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -10,7 +11,7 @@ pub(crate) struct CompareOptions {
     /// The reference.
     pub(crate) reference: PathBuf,
     /// Fail with status 1 if the 95th percentile of any channel's block differences is above this (0.03 is 3 %).
-    #[arg(long, value_name = "DIFFERENCE")]
+    #[arg(long, value_name = "DIFFERENCE", value_parser = finite::<f64>)]
     pub(crate) max: Option<f64>,
     /// Write a picture: red where the image is brighter, blue where it is darker, full at 10 %.
     #[arg(long, value_name = "FILE")]

@@ -1,5 +1,6 @@
 //! What `gonio report` takes.
 
+use super::number::{count, finite};
 use super::{DaylightArguments, GridArguments, StageArguments, TextureArguments, WorkArguments};
 use clap::Args;
 use std::path::PathBuf;
@@ -41,7 +42,7 @@ pub(crate) struct ReportOptions {
     #[arg(long, value_name = "TEXT")]
     pub(crate) date: Option<String>,
     /// The frame to report on.
-    #[arg(long, short = 'f', value_name = "FRAME", allow_hyphen_values = true)]
+    #[arg(long, short = 'f', value_name = "FRAME", allow_hyphen_values = true, value_parser = finite::<f64>)]
     pub(crate) frame: Option<f64>,
     /// Show what this camera sees, by name or path; may be given several times. Without it all cameras of the stage.
     #[arg(long, short = 'c', alias = "cam", value_name = "CAMERA")]
@@ -56,28 +57,28 @@ pub(crate) struct ReportOptions {
     #[arg(long = "image-width", short = 'w', alias = "imageWidth", value_name = "WIDTH", default_value_t = 640, value_parser = clap::value_parser!(u32).range(16..=8192))]
     pub(crate) image_width: u32,
     /// Samples a pixel of the pictures.
-    #[arg(long, short = 'p', alias = "pixel-samples", value_name = "COUNT", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    #[arg(long, short = 'p', alias = "pixel-samples", value_name = "COUNT", default_value_t = 64, value_parser = count::<u32>(1..=1 << 20))]
     pub(crate) spp: u32,
     /// Stops by which the pictures are brightened.
-    #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_hyphen_values = true)]
+    #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_hyphen_values = true, value_parser = finite::<f32>)]
     pub(crate) exposure: f32,
     /// Samples a point of grids and meters.
-    #[arg(long = "point-spp", value_name = "COUNT", default_value_t = 1024, value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    #[arg(long = "point-spp", value_name = "COUNT", default_value_t = 1024, value_parser = count::<u32>(1..=1 << 20))]
     pub(crate) point_spp: u32,
     /// The upper end of the false colours of grids, in their unit; without it a round number for each.
-    #[arg(long = "max-illuminance", value_name = "LUX")]
+    #[arg(long = "max-illuminance", value_name = "LUX", value_parser = finite::<f32>)]
     pub(crate) max_illuminance: Option<f32>,
     /// The upper end of the pictures' false colours, three decades in even steps of the logarithm; without it a round number for each.
-    #[arg(long = "max-luminance", value_name = "CD/M2")]
+    #[arg(long = "max-luminance", value_name = "CD/M2", value_parser = finite::<f32>)]
     pub(crate) max_luminance: Option<f32>,
     /// Steps of the false colours.
-    #[arg(long, value_name = "COUNT", default_value_t = 10)]
+    #[arg(long, value_name = "COUNT", default_value_t = 10, value_parser = count::<u32>(0..=u64::from(u32::MAX)))]
     pub(crate) steps: u32,
     /// Power density over the largest grid's area too, all luminaires counted.
     #[arg(long = "grid-density")]
     pub(crate) grid_density: bool,
     /// Limit of the bounces of pictures, grids and meters; without one that of the stage for pictures, and none for the others.
-    #[arg(long = "max-bounces", value_name = "COUNT")]
+    #[arg(long = "max-bounces", value_name = "COUNT", value_parser = count::<u32>(0..=u64::from(u32::MAX)))]
     pub(crate) max_bounces: Option<u32>,
     #[command(flatten)]
     pub(crate) work: WorkArguments,

@@ -1,5 +1,6 @@
 //! What `gonio view` takes.
 
+use super::number::{count, finite};
 use super::{DaylightArguments, ScaleArguments, StageArguments, TextureArguments, WorkArguments};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -22,13 +23,13 @@ pub(crate) struct ViewOptions {
     #[arg(long, short = 'c', alias = "cam", value_name = "CAMERA")]
     pub(crate) camera: Option<String>,
     /// Frame to begin with; without it the stage's first.
-    #[arg(long, short = 'f', value_name = "FRAME", allow_hyphen_values = true)]
+    #[arg(long, short = 'f', value_name = "FRAME", allow_hyphen_values = true, value_parser = finite::<f64>)]
     pub(crate) frame: Option<f64>,
     /// Width and height of the picture in the window at first; without it the stage's, as far as the screen has room.
     #[arg(long, num_args = 2, value_names = ["WIDTH", "HEIGHT"], value_parser = clap::value_parser!(u32).range(16..=16384))]
     pub(crate) res: Option<Vec<u32>>,
     /// Samples a pixel after which the picture rests.
-    #[arg(long, short = 'p', value_name = "COUNT", default_value_t = 1024, value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    #[arg(long, short = 'p', value_name = "COUNT", default_value_t = 1024, value_parser = count::<u32>(1..=1 << 20))]
     pub(crate) spp: u32,
     /// What is shown at first: the picture, or luminance (cd/m²) or illuminance (lx) in false colour.
     #[arg(long, value_enum, default_value_t = ShowArgument::Picture)]
@@ -36,7 +37,7 @@ pub(crate) struct ViewOptions {
     #[command(flatten)]
     pub(crate) scale: ScaleArguments,
     /// Stops by which the picture is brightened.
-    #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_hyphen_values = true)]
+    #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_hyphen_values = true, value_parser = finite::<f32>)]
     pub(crate) exposure: f32,
     /// How radiance becomes display values: 'photographic', 'local', 'none', or 'ev100=12'. Without it 'photographic', and 'none' for stages that are lit from the camera.
     #[arg(long, value_name = "OPERATOR")]
@@ -48,7 +49,7 @@ pub(crate) struct ViewOptions {
     #[arg(long, value_name = "FILE.png")]
     pub(crate) screenshot: Option<PathBuf>,
     /// Samples a pixel that the screenshot waits for, at most those of --spp.
-    #[arg(long, value_name = "COUNT", default_value_t = 16, requires = "screenshot", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    #[arg(long, value_name = "COUNT", default_value_t = 16, requires = "screenshot", value_parser = count::<u32>(1..=1 << 20))]
     pub(crate) after: u32,
     #[command(flatten)]
     pub(crate) work: WorkArguments,

@@ -1,5 +1,6 @@
 //! What every command takes that traces paths.
 
+use super::number::count;
 use clap::Args;
 use gonio::scene::Settings;
 
@@ -10,7 +11,7 @@ pub(crate) struct WorkArguments {
     #[arg(long, value_name = "NUMBER", default_value_t = 0)]
     pub(crate) seed: u32,
     /// Worker threads; 0 takes one a core.
-    #[arg(long, short = 'j', value_name = "COUNT", default_value_t = 0)]
+    #[arg(long, short = 'j', value_name = "COUNT", default_value_t = 0, value_parser = count::<u32>(0..=u64::from(u32::MAX)))]
     pub(crate) threads: u32,
 }
 

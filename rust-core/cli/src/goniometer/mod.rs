@@ -76,7 +76,7 @@ fn asked(options: &GoniometerOptions, frame: Frame) -> Result<Options> {
     Ok(Options {
         frame,
         angles,
-        stop: Stop { error: share("error", &options.error)?, rays: numbers::count("rays", &options.rays)?, time: time.transpose()? },
+        stop: Stop { error: share("error", &options.error)?, rays: options.rays, time: time.transpose()? },
         symmetry: options.symmetry.forced().map(SymmetryName::into),
         rays: Vec::new(),
         screen: options.screen.as_deref().map(numbers::screen).transpose()?,

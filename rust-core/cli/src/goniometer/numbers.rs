@@ -3,25 +3,11 @@
 use crate::daylight::number;
 use gonio::{
     Error, Result,
-    goniometer::{Angles, MOST_DIRECTIONS, MOST_RAYS, Screen},
+    goniometer::{Angles, MOST_DIRECTIONS, Screen},
 };
 
 /// Points of a screen each way that nothing is said of.
 const SCREEN_POINTS: usize = 32;
-
-/// A count: `500000`, `2e9`, `200M`, `5G`, `20k`.
-pub(super) fn count(name: &str, text: &str) -> Result<u64> {
-    let text = text.trim();
-    let (digits, factor) = match text.chars().last() {
-        Some('k') => (&text[..text.len() - 1], 1e3),
-        Some('M') => (&text[..text.len() - 1], 1e6),
-        Some('G') => (&text[..text.len() - 1], 1e9),
-        _ => (text, 1.0),
-    };
-    let value = number(name, digits)? * factor;
-    let fits = value >= 1.0 && value <= MOST_RAYS as f64;
-    fits.then_some(value as u64).ok_or_else(|| Error::setting(name, format!("'{text}' was found, expected 1 to {MOST_RAYS}")))
-}
 
 /// Directions with γ in ranges.
 pub(super) fn angles(c_step: f64, list: &str) -> Result<Angles> {
@@ -63,13 +49,6 @@ mod tests {
             [share("error", "1%").ok(), share("error", " 0.5 %").ok(), share("error", "0.02").ok()],
             [Some(0.01), Some(0.005), Some(0.02)]
         );
-        assert_eq!(
-            ["500", "2e9", "200M", "20k"].map(|text| count("rays", text).ok()),
-            [Some(500), Some(2_000_000_000), Some(200_000_000), Some(20_000)]
-        );
-        for bad in ["", "M", "-3", "0", "1e99", "nan", "5T", "5µ"] {
-            assert!(count("rays", bad).is_err(), "{bad}");
-        }
     }
 
     #[test]

@@ -27,7 +27,7 @@ use gonio::{
     compile::{CompiledScene, compile},
     measure::{MOST_BOUNCES, Measurements},
     output::{FalseColourScale, write_atomically},
-    scene::{Integrator, Measurand},
+    scene::Integrator,
 };
 use gonio_usd::{Loaded, SampleTime, Stage, camera::choose, meter::axes};
 use head::Head;
@@ -49,7 +49,7 @@ pub(super) fn report(py: Python<'_>, options: &ReportOptions, interrupted: &'sta
     let mut stage_options = stage_options(&options.stage)?;
     stage_options.time = options.frame.map_or(SampleTime::Start, SampleTime::Code);
     let stage = Stage::open(py, &options.stage.stage, &stage_options)?;
-    author_grids(py, &stage, &options.grids, Measurand::Illuminance)?;
+    author_grids(py, &stage, &options.grids, None)?;
     let loaded = stage.load(py, &stage_options, interrupted)?;
     let today = head::today(py).map_err(|error| Error::Internal(error.to_string()))?;
     let denoiser = denoiser(options);

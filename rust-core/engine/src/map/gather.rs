@@ -3,7 +3,7 @@
 use super::{
     cells::{CellChart, cells_for},
     join::join,
-    options::{MapOptions, TexelSize},
+    options::{MOST_SIDE, MapOptions, TexelSize},
     side::{SideMap, Summary},
     surface::{MappedSurface, chosen},
     table::{FluxTable, Sums},
@@ -131,12 +131,13 @@ pub fn illumination_maps(
     let lumens = |at: usize| crate::colour::luminance(gathering.batches.get(at)) / paths as f64;
     let (emitted, cut_off) = (lumens(0), lumens(1));
     let error = mean_error(&places, &table, &areas);
-    let diagnostics = diagnostics(&surfaces, &charts);
+    let mut diagnostics = diagnostics(&surfaces, &charts);
     let finished = surfaces.into_iter().zip(charts).zip(areas).enumerate();
     let of = |(number, ((surface, chart), areas)): (usize, ((MappedSurface, Chart), Vec<f64>))| {
         finish(surface, chart, &areas, paths as f64, options, &|side, cell| table.row(places.row(number, cell, side)))
     };
-    let surfaces = finished.map(of).collect();
+    let surfaces: Vec<SurfaceMap> = finished.map(of).collect();
+    diagnostics.extend(surfaces.iter().filter_map(|surface| too_coarse(surface, options)));
     let of_instance = std::mem::take(&mut places.of_instance);
     Ok(IlluminationMaps { surfaces, of_instance, paths, error, emitted, cut_off, memory, diagnostics })
 }
@@ -361,6 +362,39 @@ fn diagnostics(surfaces: &[MappedSurface], charts: &[Chart]) -> Vec<Diagnostic> 
         _ => None,
     };
     surfaces.iter().zip(charts).filter_map(shared).collect()
+}
+
+/// Says where parts are wider than was asked for.
+fn too_coarse(map: &SurfaceMap, options: &MapOptions) -> Option<Diagnostic> {
+    let TexelSize::Metres(asked) = options.texel else { return None };
+    let told = |problem: String| Some(Diagnostic::info(&map.surface.origin, problem));
+    let cells = match &map.chart {
+        Chart::Texels(chart) if chart.size().contains(&MOST_SIDE) => {
+            return told(format!("texels of {asked} m would be more than {MOST_SIDE} a side; they are larger"));
+        }
+        Chart::Texels(_) => return None,
+        Chart::Cells(cells) => cells,
+    };
+    let (mut lit, mut coarse, mut widest) = (0.0, 0.0, 0.0f64);
+    for side in map.sides.iter().flatten() {
+        for (triangle, area) in map.surface.areas.iter().enumerate() {
+            let own = area / cells.cells(triangle).len() as f64;
+            for cell in cells.cells(triangle) {
+                let width = (area / f64::from(1u32 << (2 * side.level[cell]))).sqrt();
+                lit += own;
+                if width > asked * (1.0 + 1e-6) {
+                    coarse += own;
+                    widest = widest.max(width);
+                }
+            }
+        }
+    }
+    let (share, error) = (100.0 * coarse / lit, 100.0 * options.error);
+    let reason = format!("where their own error would be more than {error} %: more paths, or an error of 0 %");
+    if coarse > 0.0 {
+        return told(format!("{share:.0} % of it has parts wider than the {asked} m asked for, up to {widest:.3} m, {reason}"));
+    }
+    None
 }
 
 /// Turns the sums of a surface into lux.

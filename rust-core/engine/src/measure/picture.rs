@@ -23,9 +23,7 @@ pub fn value_picture(grid: &GridReading, style: &FalseColour) -> Canvas {
     // A cell holds five digits; those of less than nine pixels cannot be read.
     let (digits, margin) = ((cell / 5).clamp(9, 24), (cell / 32).max(1));
     for (index, value) in values.iter().enumerate().filter(|(_, value)| value.is_finite()) {
-        let text = short_number(f64::from(*value));
-        let [width, height] = Canvas::text_size(&text, digits);
-        if width.max(height) + 2 * margin < cell {
+        if let Some((text, [width, height])) = fitting(f64::from(*value), [digits, margin], cell) {
             let middle = [index % columns * cell + cell / 2, (rows - 1 - index / columns) * cell + cell / 2];
             let corner = [middle[0] - width / 2, middle[1] - height / 2];
             canvas.shade(corner.map(|at| at - margin), [width + 2 * margin, height + 2 * margin], PAPER);
@@ -33,6 +31,19 @@ pub fn value_picture(grid: &GridReading, style: &FalseColour) -> Canvas {
         }
     }
     canvas
+}
+
+/// A value in as many digits, of such a height and with such a margin, as a cell has room for, with its width and height; none where there is room for
+/// none.
+fn fitting(value: f64, [digits, margin]: [usize; 2], cell: usize) -> Option<(String, [usize; 2])> {
+    let rounded = |decimals: usize| format!("{value:.decimals$e}").parse().unwrap_or(value);
+    let texts = [short_number(value), short_number(rounded(1)), short_number(rounded(0)), format!("{value:.0e}")];
+    let least = (value > 0.0 && value < 1.0).then(|| "<1".to_owned());
+    let mut sized = texts.into_iter().chain(least).map(|text| {
+        let size = Canvas::text_size(&text, digits);
+        (text, size)
+    });
+    sized.find(|(_, [width, height])| width.max(height) + 2 * margin < cell)
 }
 
 /// The value at a pixel counted from the first row's start, bilinear between points; that of the cell alone where a neighbour is missing.
@@ -50,5 +61,25 @@ fn interpolated(values: &[f32], [columns, rows]: [usize; 2], pixel: [usize; 2], 
         f32::NAN
     } else {
         mixed
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_values_are_written_where_large_ones_are() {
+        // A cell with room for three digits has some for any value.
+        let (sizes, cell) = ([9, 1], 24);
+        let text = |value: f64| fitting(value, sizes, cell).map(|(text, _)| text);
+        assert_eq!(text(500.0).as_deref(), Some("500"));
+        assert!(text(0.25).is_some_and(|text| text.starts_with("0.2")));
+        for value in [0.0333, 0.001_234, 12.34, 0.000_123_4, 3.2e-7, 1234.0, 98_765.0] {
+            let (text, [width, _]) = fitting(value, sizes, cell).unwrap_or_else(|| panic!("{value} has no text"));
+            let near = text.parse::<f64>().is_ok_and(|read| (read / value - 1.0).abs() < 0.5);
+            assert!(width + 2 < cell && (near || value < 1.0 && text == "<1"), "{value}: {text}");
+        }
+        assert_eq!(fitting(500.0, sizes, 6), None);
     }
 }

@@ -1,11 +1,14 @@
 //! WEA: six lines of header, then month, day, hour and two numbers a line, whose quantities the header's last line tells (Radiance's `epw2wea` and `gendaymtx`).
 //!
 //! Hours are the middles of their intervals, as Daysim has them. Some programs count whole hours instead: from 0 where they begin, or up to 24 where
-//! they end.
+//! they end. Daysim's files of parts of an hour may go on from there: an hour's parts are 24.000 to 24.917 in steps of five minutes.
 
 use super::{Hour, MOST_ILLUMINANCE, MOST_IRRADIANCE, Quantities, Weather, number, whole};
 use crate::error::{FormatError, Result};
 use crate::photometry::text::{Lines, quote};
+
+/// What hours are below: parts of a 24th hour are counted from 24.
+const LAST_HOUR: f64 = 25.0 - 1e-3;
 
 /// The rest of the file from its first line on.
 pub(super) fn read(lines: Lines<'_>) -> Result<Weather> {
@@ -41,12 +44,23 @@ pub(super) fn read(lines: Lines<'_>) -> Result<Weather> {
 
 /// From the hours that a file counts to the middles of their intervals.
 fn to_middle(hours: &[Hour]) -> f64 {
+    let last = hours.iter().map(|record| record.hour).fold(0.0, f64::max);
+    if last > 24.0 {
+        // The day's last interval ends at midnight.
+        return 24.0 - 0.5 * step(hours) - last;
+    }
     let has = |hour: f64| hours.iter().any(|record| record.hour == hour);
     match (hours.iter().all(|record| record.hour.fract() == 0.0), has(0.0), has(24.0)) {
         (true, true, false) => 0.5,
         (true, false, true) => -0.5,
         _ => 0.0,
     }
+}
+
+/// The shortest time between two records of a day, hours.
+fn step(hours: &[Hour]) -> f64 {
+    let pairs = hours.windows(2).map(|pair| pair[1].hour - pair[0].hour);
+    pairs.filter(|step| *step > 0.0).fold(1.0, f64::min)
 }
 
 /// Radiance's and Daysim's numbers of quantities.
@@ -72,7 +86,7 @@ fn hour(line: u64, text: &str, quantities: Quantities) -> Result<Hour> {
     Ok(Hour {
         month: whole(line, "the month", fields.next(), 1..=12)?,
         day: whole(line, "the day", fields.next(), 1..=31)?,
-        hour: number(line, "the hour", fields.next(), 0.0..=24.0)?,
+        hour: number(line, "the hour", fields.next(), 0.0..=LAST_HOUR)?,
         direct_normal: number(line, names[0], fields.next(), 0.0..=most)?,
         diffuse_horizontal: number(line, names[1], fields.next(), 0.0..=most)?,
         dew_point_c: None,

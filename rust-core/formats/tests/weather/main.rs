@@ -50,6 +50,18 @@ fn whole_hours_begin_or_end_their_intervals() {
     };
     let at = |hours: &[Hour], index: usize| (hours[index].hour, hours[index].direct_normal);
     assert_eq!(at(&day(0..24), 12), (12.5, 120.0));
+    // Parts of hours from 1.000 to 24.917 in steps of five minutes, and middles of quarters up to 24.875.
+    let parts = |per_hour: u32, offset: f64| {
+        let (header, _) = WEA.split_at(WEA.find("6 21").unwrap());
+        let record = |i: u32| format!("6 21 {:.3} {} 10\n", 1.0 + (f64::from(i) + offset) / f64::from(per_hour), i);
+        read((header.to_owned() + &(0..24 * per_hour).map(record).collect::<String>()).as_bytes()).unwrap().hours
+    };
+    for (per_hour, offset) in [(12, 0.0), (4, 0.5)] {
+        let hours = parts(per_hour, offset);
+        let middle = |index: u32| (f64::from(index) + 0.5) / f64::from(per_hour);
+        assert!((0..24 * per_hour).all(|i| (hours[i as usize].hour - middle(i)).abs() < 2e-3), "{per_hour}: {:?}", hours[0]);
+        assert_eq!(hours.last().unwrap().direct_normal, f64::from(24 * per_hour - 1));
+    }
     assert_eq!(at(&day(1..25), 12), (12.5, 130.0));
     // Whether they begin or end nobody can tell.
     assert_eq!(at(&day(8..18), 4), (12.0, 120.0));
