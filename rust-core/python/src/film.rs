@@ -148,7 +148,7 @@ impl Film {
         if self.layer(Aov::Color.name()).is_err() {
             return Ok(None);
         }
-        self.picture(py, "photographic", 0.0, 6.0, None)?._repr_png_(py).map(Some)
+        self.picture(py, "photographic", 0.0, 6.0, None, false)?._repr_png_(py).map(Some)
     }
     /// Writes all passes; absolute ones as 32-bit floats whatever `half` says.
     #[pyo3(signature = (path, half = false))]
