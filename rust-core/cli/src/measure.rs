@@ -166,10 +166,14 @@ fn named(path: &Path, grid: &GridReading, number: usize) -> PathBuf {
 
 fn meter_line(meter: &MeterReading) -> String {
     let (measurand, [x, y, z]) = (meter.meter.measurand, meter.meter.position);
-    let Reading { value, standard_error } = meter.reading;
-    let (name, unit) = (measurand.name(), spaced(measurand));
+    let (name, figure) = (measurand.name(), figure(&meter.reading, 4, &spaced(measurand)));
     let note = meter.rating_note().map_or(String::new(), |note| format!("; {note}"));
-    format!("{}: {name} {value:.4}{unit} ± {standard_error:.2} at {x:.3}, {y:.3}, {z:.3} m{note}", meter.meter.origin)
+    format!("{}: {name} {figure} at {x:.3}, {y:.3}, {z:.3} m{note}", meter.meter.origin)
+}
+
+/// A value of so many places with its standard error; in words where there is none.
+fn figure(Reading { value, standard_error }: &Reading, places: usize, unit: &str) -> String {
+    if value.is_nan() { "not measured".into() } else { format!("{value:.places$}{unit} ± {standard_error:.2}") }
 }
 
 /// The unit's sign with a blank before it; nothing where there is none.
@@ -182,7 +186,7 @@ fn grid_lines(grid: &GridReading) -> Vec<String> {
     let (unit, summary) = (spaced(grid.measurand), &grid.summary);
     let [columns, rows] = grid.size;
     let [along, across] = grid.spacing;
-    let figure = |name: &str, reading: &Reading| format!("  {name}: {:.2}{unit} ± {:.2}", reading.value, reading.standard_error);
+    let figure = |name: &str, reading: &Reading| format!("  {name}: {}", figure(reading, 2, &unit));
     let mut lines = vec![
         format!(
             "{}: {}, {columns} × {rows} points ({} measured), {along:.3} × {across:.3} m apart",

@@ -12,6 +12,9 @@ const VALUE_DIGITS: i32 = 4;
 /// A value with its standard error and unit: as many places as the error has with two digits, and four digits at most.
 pub(super) fn with_error(reading: &Reading, unit: &str) -> String {
     let Reading { value, standard_error } = *reading;
+    if value.is_nan() {
+        return "not measured".into();
+    }
     let text = match places(standard_error, value.abs()) {
         // What is too small to be seen is at most one in the last place.
         Some(places) => format!("{} ± {}", fixed(value, places), fixed(standard_error.max(10f64.powi(-places)), places)),

@@ -1,7 +1,7 @@
 //! Whether light paths bring caustics by themselves: a few thousand of them tell how much light mirrors and clear glass send on, and how noisy it
 //! would be if camera paths had to meet the lights by chance.
 
-use super::{CompiledScene, casters, view};
+use super::{CompiledScene, casters, light_paths_measure, view};
 use crate::{
     error::{Diagnostic, Result},
     light::{EmissionSampler, LightKind, LightRecord, LightTexture},
@@ -17,7 +17,7 @@ use std::{
     },
 };
 
-/// Batches of light paths that tell it.
+/// Batches of light paths that tell it of pictures.
 const BATCHES: u64 = 1;
 /// Other random numbers than splats and photons have, whatever the seed of the picture: frames of a sequence go one way.
 const FIRST_BATCH: u64 = 3 << 62;
@@ -34,9 +34,9 @@ const TEXELS: usize = 4096;
 
 /// Flux of a light that arrives on surfaces which are neither mirrors nor clear glass.
 #[derive(Clone, Copy, Debug, Default)]
-struct Brought {
-    straight: f64,
-    by_casters: f64,
+pub(super) struct Brought {
+    pub(super) straight: f64,
+    pub(super) by_casters: f64,
 }
 
 /// What decides.
@@ -71,7 +71,7 @@ pub(crate) fn starts(scene: &CompiledScene) -> Vec<bool> {
     (0..lights.len() as u32).map(|light| !lights.is_dome(light) && !lights.has_falloff(light)).collect()
 }
 
-/// How paths start at these lights.
+/// How paths start at these lights, half of them aimed at what casts caustics.
 pub(crate) fn emission(scene: &CompiledScene, starts: &[bool]) -> EmissionSampler {
     let numbers: Vec<u32> = (0..).zip(starts).filter(|(_, starts)| **starts).map(|(light, _)| light).collect();
     let (centre, radius) = scene.bounds.sphere(scene.tables.origin);
@@ -81,10 +81,11 @@ pub(crate) fn emission(scene: &CompiledScene, starts: &[bool]) -> EmissionSample
 /// Decides for a scene whose settings leave it open, and says so where light paths are to run; `of_light` gives the scene's lights.
 pub(super) fn decide(compiled: &mut CompiledScene, scene: &Scene, of_light: &[u32], cancel: &AtomicBool) -> Result<()> {
     if scene.settings.caustics == Caustics::Auto && are_possible(compiled, &scene.settings) {
-        let brought = trace(compiled, scene, cancel);
+        let brought = trace(compiled, &scene.settings, BATCHES, cancel);
         super::check(cancel)?;
         let found = findings(compiled, &brought);
-        compiled.casters.pay = found.noise >= LEAST_NOISE || found.lost >= LEAST_LOST || found.shut_in;
+        compiled.casters.pay =
+            found.noise >= LEAST_NOISE || found.lost >= LEAST_LOST || found.shut_in || is_measured(compiled, scene, cancel);
         if compiled.casters.pay {
             let (light, part) = found.most;
             let light = of_light.get(light).and_then(|light| scene.lights.get(*light as usize)).map(|light| &light.origin);
@@ -104,29 +105,36 @@ pub(super) fn decide(compiled: &mut CompiledScene, scene: &Scene, of_light: &[u3
     Ok(())
 }
 
+/// Whether illuminances are wanted of light that camera paths would seldom or never find, be it a small part of all.
+fn is_measured(compiled: &CompiledScene, scene: &Scene, cancel: &AtomicBool) -> bool {
+    let wanted = scene.settings.aovs.contains(&Aov::Illuminance);
+    let rare = || light_paths_measure::for_meters(compiled, &scene.settings, cancel);
+    wanted && rare().is_some_and(|rare| rare.iter().zip(starts(compiled)).any(|(rare, starts)| *rare && starts))
+}
+
 fn message(part: f64) -> String {
     let part = if part < 0.01 { "some".to_owned() } else { format!("{:.0} %", 100.0 * part) };
     format!("mirrors and clear glass send on {part} of its light, which camera paths seldom find; light paths bring it (caustics)")
 }
 
 /// What a few light paths bring, light by light.
-fn trace(compiled: &CompiledScene, scene: &Scene, cancel: &AtomicBool) -> Vec<Brought> {
+pub(super) fn trace(compiled: &CompiledScene, settings: &Settings, batches: u64, cancel: &AtomicBool) -> Vec<Brought> {
     let tables = &compiled.tables;
     let mut tally = Tally(vec![Brought::default(); tables.lights.len()]);
     let sampler = emission(compiled, &starts(compiled));
     if sampler.is_empty() {
         return tally.0;
     }
-    let settings = Settings { seed: SEED, ..scene.settings.clone() };
+    let settings = Settings { seed: SEED, ..settings.clone() };
     let transport = view::transport(compiled, &settings, Execution::detect(), [0.0; 3], [0.0, 0.0, -1.0]);
     let wanted = Wanted { arrivals: Arriving::Photons, specular_only: true, picture: None };
     let tracer = LightTracer { tables, transport: &transport, emission: Emission::Lights(&sampler), wanted };
     let mut workspace = compiled.workspaces.take();
-    for batch in 0..BATCHES {
+    for batch in 0..batches {
         tracer.trace(FIRST_BATCH | batch, &mut tally, &mut Vec::new(), &mut workspace, &|| cancel.load(Ordering::Relaxed));
     }
     compiled.workspaces.leave(workspace);
-    let share = 1.0 / (BATCHES * LIGHT_BATCH as u64) as f64;
+    let share = 1.0 / (batches * LIGHT_BATCH as u64) as f64;
     tally.0.iter().map(|b| Brought { straight: b.straight * share, by_casters: b.by_casters * share }).collect()
 }
 
@@ -165,7 +173,7 @@ fn findings(compiled: &CompiledScene, brought: &[Brought]) -> Findings {
     for (light, (brought, record)) in brought.iter().zip(records).enumerate() {
         let Brought { straight, by_casters } = *brought;
         let own = by_casters / (straight + by_casters).max(f64::MIN_POSITIVE);
-        let sizeless = record.kind == LightKind::Point || (record.kind == LightKind::Distant && record.angle <= 0.0);
+        let sizeless = is_sizeless(record);
         // Noise if there were no other light; radiances of openings are not at hand.
         let alone = match record.opening {
             Some(_) => 0.0,
@@ -184,21 +192,31 @@ fn findings(compiled: &CompiledScene, brought: &[Brought]) -> Findings {
     found
 }
 
+/// Whether no ray finds the light by chance, its opening left aside.
+pub(super) fn is_sizeless(record: &LightRecord) -> bool {
+    record.kind == LightKind::Point || (record.kind == LightKind::Distant && record.angle <= 0.0)
+}
+
 /// Mean radiance of a dome, cd/m².
 fn dome_radiance(record: &LightRecord, images: &[Arc<LightTexture>]) -> f64 {
+    dome_mean(record, images, |radiance| radiance)
+}
+
+/// The mean of a function of a dome's radiance over all directions.
+pub(super) fn dome_mean(record: &LightRecord, images: &[Arc<LightTexture>], of: impl Fn(f64) -> f64) -> f64 {
     let image = record.texture.and_then(|number| images.get(number as usize)).filter(|image| image.width * image.height > 0);
-    let texture = image.map_or(1.0, |image| {
+    let own = mean(record.radiance);
+    let found = image.map_or(of(own), |image| {
         let step = (image.width * image.height / TEXELS).max(1);
         // Rows shrink towards the poles.
         let weight = |texel: usize| (PI * ((texel / image.width) as f64 + 0.5) / image.height as f64).sin();
         let texels = || (0..image.width * image.height).step_by(step);
-        let value = |texel: usize| image.rgb.get(3 * texel..3 * texel + 3).map_or(0.0, |rgb| mean([rgb[0], rgb[1], rgb[2]]));
+        let value = |texel: usize| image.rgb.get(3 * texel..3 * texel + 3).map_or(0.0, |rgb| of(own * mean([rgb[0], rgb[1], rgb[2]])));
         texels().map(|texel| weight(texel) * value(texel)).sum::<f64>() / texels().map(weight).sum::<f64>()
     });
-    let radiance = mean(record.radiance) * texture;
-    if radiance.is_finite() { radiance.max(0.0) } else { 0.0 }
+    if found.is_finite() { found.max(0.0) } else { 0.0 }
 }
 
-fn mean(rgb: [f32; 3]) -> f64 {
+pub(super) fn mean(rgb: [f32; 3]) -> f64 {
     rgb.map(f64::from).iter().sum::<f64>() / 3.0
 }

@@ -20,6 +20,7 @@ mod kept;
 mod light_alone;
 mod light_groups;
 mod light_images;
+pub(crate) mod light_paths_measure;
 pub(crate) mod light_paths_pay;
 mod lights;
 mod linking;

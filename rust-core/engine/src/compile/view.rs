@@ -7,7 +7,7 @@ use crate::{
     error::{Error, Result},
     film::{Film, PictureProjection, PictureView, Placement, tabulate},
     scene::{Antialiasing, Aov, Background, Camera, Crop, Integrator, Projection, Settings},
-    transport::{Distance, Estimator, Limits, Mist, Passes, PathFilter, Transport, medium_at},
+    transport::{Distance, Estimator, FirstLight, Limits, Mist, Passes, PathFilter, Transport, medium_at},
 };
 use gonio_simd::Execution;
 
@@ -125,6 +125,7 @@ pub(crate) fn transport(scene: &CompiledScene, settings: &Settings, execution: E
         light_paths: None,
         shutter: motion::shutter(&scene.tables.bvh, None, settings),
         photons: None,
+        first_light: FirstLight::Splats,
     }
 }
 

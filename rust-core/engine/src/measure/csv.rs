@@ -5,8 +5,8 @@ use crate::scene::{Measurand, Origin};
 use std::fmt::Write;
 
 /// One line a point, meters first: name, row and column in the grid (empty for meters), position in metres, what was measured, its value with the
-/// standard error, the unit, and of glare ratings how many sources were left out, which share of the sources' light at the eye they bring, and the rating by CIE 117 alone, as UGR
-/// tables have it.
+/// standard error (empty where there is no figure), the unit, and of glare ratings how many sources were left out, which share of the sources' light at the eye they
+/// bring, and the rating by CIE 117 alone, as UGR tables have it.
 pub fn csv(measurements: &Measurements) -> String {
     let mut out =
         String::from("name,row,column,x_m,y_m,z_m,quantity,value,standard_error,unit,left_out,share_left_out,ugr_as_in_tables\r\n");
@@ -34,13 +34,14 @@ fn line(
 ) {
     let place = place.map_or_else(|| ",".to_owned(), |[row, column]| format!("{row},{column}"));
     let (quantity, unit) = (measurand.name(), measurand.unit().replace('²', "2"));
-    let (value, error) = (reading.value, reading.standard_error);
+    let figure = |value: f64| if value.is_nan() { String::new() } else { format!("{value:.6}") };
+    let [value, error] = [reading.value, reading.standard_error].map(figure);
     let out_of = rated.map_or(",,".to_owned(), |(coverage, small)| {
         let tabular = small.tabular.map_or(String::new(), |reading| format!("{:.6}", reading.value));
         format!("{},{:.4},{tabular}", coverage.left_out(), coverage.share_left_out())
     });
     // Writing to a string does not fail.
-    let _ = write!(out, "{},{place},{x:.6},{y:.6},{z:.6},{quantity},{value:.6},{error:.6},{unit},{out_of}\r\n", quoted(&origin.name));
+    let _ = write!(out, "{},{place},{x:.6},{y:.6},{z:.6},{quantity},{value},{error},{unit},{out_of}\r\n", quoted(&origin.name));
 }
 
 /// A text as a field: in quotes where it holds what has a meaning.

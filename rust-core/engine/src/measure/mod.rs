@@ -1,17 +1,23 @@
 //! Answers in numbers: meters at points and calculation grids, evaluated by the path tracer without a camera.
 
+mod brought;
 mod csv;
 mod daylight_factor;
+mod disc;
+mod discs;
 mod eye;
 pub mod glare;
+mod missed;
 mod outline;
 mod picture;
 mod points;
 mod reading;
 mod room;
 mod sense;
+mod sensing;
 mod ugr;
 mod vector;
+mod watch;
 
 #[cfg(test)]
 mod tests;
@@ -21,11 +27,11 @@ pub use picture::value_picture;
 pub use points::{GridPoints, MOST_POINTS};
 pub use reading::{GridReading, MeterReading, Reading, SmallSources, Summary};
 pub use room::Room;
+pub use watch::{MOST_BOUNCES, Watch};
 
 use crate::{
-    compile::{CompiledScene, compile},
+    compile::compile,
     error::{Diagnostic, Error, Result},
-    render::Progress,
     scene::{Measurand, Meter, Scene},
 };
 use daylight_factor::{ExteriorSky, under_domes};
@@ -33,10 +39,7 @@ use glare::Coverage;
 use gonio_simd::Execution;
 use reading::Found;
 use sense::Probe;
-use std::sync::{Arc, atomic::AtomicBool};
-
-/// Bounces of measurements that no limit was asked for: in white rooms the late ones are many lux together, and roulette ends what does not matter.
-pub const MOST_BOUNCES: u32 = 255;
+use std::sync::Arc;
 
 /// What all meters and grids of a scene show.
 #[derive(Clone, Debug, Default)]
@@ -47,22 +50,6 @@ pub struct Measurements {
     pub grids: Vec<GridReading>,
     /// What differs from what was asked for.
     pub diagnostics: Vec<Diagnostic>,
-}
-
-/// What stands around a measurement.
-pub struct Watch<'a> {
-    /// Lends what did not change.
-    pub previous: Option<&'a CompiledScene>,
-    /// Ends compiling.
-    pub cancel: &'a AtomicBool,
-    /// Is told how far it is, now and then; false ends it.
-    pub progress: &'a mut dyn FnMut(&Progress) -> bool,
-}
-
-impl std::fmt::Debug for Watch<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Watch").field("previous", &self.previous.is_some()).field("cancel", self.cancel).finish_non_exhaustive()
-    }
 }
 
 /// Evaluates a scene's meters and grids with the scene's settings, `samples` of them a point; cameras and passes do not matter.
@@ -82,17 +69,21 @@ pub fn measure(scene: &Scene, execution: Execution, watch: &mut Watch<'_>) -> Re
     };
     let grids = scene.grids.iter().map(laid_out).collect::<Result<Vec<_>>>()?;
     let at_grids = scene.grids.iter().zip(&grids).flat_map(|(grid, points)| {
-        points.known().map(|position| Meter {
+        let meter = |position| Meter {
             origin: grid.origin.clone(),
             position,
             normal: points.normal,
             facing: grid.facing,
             measurand: grid.measurand,
-        })
+        };
+        // Points stand for no more than their cells.
+        let reach = 0.5 * points.spacing[0].min(points.spacing[1]);
+        points.known().map(move |position| (meter(position), reach))
     });
-    let meters: Vec<Meter> = scene.meters.iter().cloned().chain(at_grids).collect();
+    let (meters, reaches): (Vec<Meter>, Vec<f64>) = scene.meters.iter().map(|meter| (meter.clone(), f64::INFINITY)).chain(at_grids).unzip();
     let mut diagnostics = Vec::new();
-    let readings = read(scene, &meters, execution, watch, &mut diagnostics)?;
+    let readings = read(scene, (&meters, &reaches), execution, watch, &mut diagnostics)?;
+    tell_unknown(&meters, &readings, &mut diagnostics);
     let (single, mut rest) = readings.split_at(scene.meters.len());
     let of_meter = |(meter, (reading, rated)): (&Meter, &Found)| MeterReading {
         meter: meter.clone(),
@@ -113,7 +104,7 @@ pub fn measure(scene: &Scene, execution: Execution, watch: &mut Watch<'_>) -> Re
 /// Readings of all meters: those under all lights in one go, daylight factors and glare in others.
 fn read(
     scene: &Scene,
-    meters: &[Meter],
+    (meters, reaches): (&[Meter], &[f64]),
     execution: Execution,
     watch: &mut Watch<'_>,
     diagnostics: &mut Vec<Diagnostic>,
@@ -123,12 +114,20 @@ fn read(
     let (daylit, rated): (Vec<usize>, Vec<usize>) = (of(Measurand::DaylightFactor).collect(), of(Measurand::Ugr).collect());
     let is_lit = |i: &usize| !matches!(meters[*i].measurand, Measurand::DaylightFactor | Measurand::Ugr);
     let lit: Vec<usize> = (0..meters.len()).filter(is_lit).collect();
-    let chosen = |numbers: &[usize]| numbers.iter().map(|i| Probe::new(&meters[*i])).collect::<Result<Vec<_>>>();
+    let probe = |i: &usize| Probe::new(&meters[*i]).map(|probe| probe.within(reaches[*i]));
+    let chosen = |numbers: &[usize]| numbers.iter().map(probe).collect::<Result<Vec<_>>>();
     let (daylit_probes, lit_probes) = (chosen(&daylit)?, chosen(&lit)?);
     let mut sense = |scene: &Scene, probes: &[Probe], diagnostics: &mut Vec<Diagnostic>| {
         let compiled = Arc::new(compile(scene, watch.previous, watch.cancel)?);
         diagnostics.extend(compiled.diagnostics.iter().cloned());
-        sense::sense(compiled, probes, &scene.settings, execution, watch.progress)
+        let sensed = sense::sense(&compiled, probes, &scene.settings, execution, watch)?;
+        if let (Some(radii), Some(first)) = (sensed.discs, meters.first()) {
+            diagnostics.push(Diagnostic::info(&first.origin, on_discs(radii)));
+        }
+        if let (1.., Some(first)) = (sensed.missed, meters.first()) {
+            diagnostics.push(Diagnostic::info(&first.origin, behind_rough_glass(sensed.missed)));
+        }
+        Ok::<_, Error>(sensed.readings)
     };
     if !lit.is_empty() {
         let values = sense(scene, &lit_probes, diagnostics)?;
@@ -150,4 +149,37 @@ fn read(
         rated.iter().zip(values).for_each(|(i, (reading, coverage, small))| readings[*i] = (reading, Some((coverage, small))));
     }
     Ok(readings)
+}
+
+/// Says over what the light is a mean that light paths bring.
+fn on_discs([least, most]: [f64; 2]) -> String {
+    let size = |radius: f64| format!("{:.1} mm", 1000.0 * radius);
+    let sizes = if size(least) == size(most) { size(most) } else { format!("{} to {}", size(least), size(most)) };
+    format!(
+        "what mirrors and clear glass send on is brought by light paths: its part of a reading is the mean over a disc of radius {sizes}"
+    )
+}
+
+/// Says where light paths alone have measured.
+fn behind_rough_glass(missed: usize) -> String {
+    format!(
+        "paths from {missed} of the points miss light that comes by rough glass; all but their direct light is the mean over their discs, by light paths"
+    )
+}
+
+/// Says at which meters and grids there is no figure.
+fn tell_unknown(meters: &[Meter], readings: &[Found], diagnostics: &mut Vec<Diagnostic>) {
+    let unknown = |(meter, (reading, _)): (_, &Found)| (!reading.is_known()).then_some(meter);
+    let mut told: Vec<&Meter> = Vec::new();
+    for meter in meters.iter().zip(readings).filter_map(unknown) {
+        if told.iter().all(|other| other.origin != meter.origin) {
+            told.push(meter);
+            let [x, y, z] = meter.position;
+            let message = format!(
+                "no figure at {x:.4}, {y:.4}, {z:.4} m: light comes by mirrors or clear glass, and is counted on a disc about the meter, for which a surface \
+                 leaves no room; move it off"
+            );
+            diagnostics.push(Diagnostic::warning(&meter.origin, message));
+        }
+    }
 }

@@ -21,6 +21,16 @@ impl Reading {
         Self { value: mean, standard_error: (squares / (count * (count - 1.0).max(1.0))).sqrt() }
     }
 
+    /// With another's that is independent of it.
+    pub(super) fn plus(&self, other: &Self) -> Self {
+        Self { value: self.value + other.value, standard_error: self.standard_error.hypot(other.standard_error) }
+    }
+
+    /// Whether there is a figure; none where light that no path from the meter finds has no room to be counted.
+    pub fn is_known(&self) -> bool {
+        !self.value.is_nan()
+    }
+
     /// Its share of another, in per cent.
     pub(super) fn percent_of(&self, whole: &Self) -> Self {
         let value = 100.0 * self.value / whole.value;
@@ -77,7 +87,7 @@ impl MeterReading {
 /// The figures of a grid. Least and greatest are those of noisy points: noise moves them outwards.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Summary {
-    /// Points measured.
+    /// Points measured, those without a figure left out.
     pub points: usize,
     /// Mean of all points.
     pub average: Reading,
@@ -89,16 +99,19 @@ pub struct Summary {
 
 impl Summary {
     fn new(readings: impl Iterator<Item = Reading> + Clone) -> Self {
+        let readings = readings.filter(Reading::is_known);
         let count = readings.clone().count();
-        let share = 1.0 / count.max(1) as f64;
+        // No number where no point has a figure.
+        let share = 1.0 / count as f64;
         let average = readings.clone().map(|r| r.value).sum::<f64>() * share;
         let error = readings.clone().map(|r| r.standard_error.powi(2)).sum::<f64>().sqrt() * share;
         let by_value = |a: &Reading, b: &Reading| a.value.total_cmp(&b.value);
+        let average = Reading { value: average, standard_error: error };
         Self {
             points: count,
-            average: Reading { value: average, standard_error: error },
-            min: readings.clone().min_by(by_value).unwrap_or_default(),
-            max: readings.max_by(by_value).unwrap_or_default(),
+            average,
+            min: readings.clone().min_by(by_value).unwrap_or(average),
+            max: readings.max_by(by_value).unwrap_or(average),
         }
     }
 

@@ -1,23 +1,25 @@
 //! From meters to sensors, and from their pixels to readings.
 
 use super::{
-    MOST_BOUNCES,
+    brought::{Brought, brought},
+    disc::Disc,
+    discs::Discs,
+    missed::with_missed,
     reading::Reading,
+    sensing::{ROUNDS, Sensing, unlimited},
     vector::{across, add, cross, scaled, unit},
+    watch::Watch,
 };
 use crate::{
-    compile::CompiledScene,
+    compile::{CompiledScene, light_paths_measure},
     error::{Error, Result},
-    film::Image,
-    render::{Progress, Render},
-    scene::{Aov, Background, Measurand, Meter, Settings},
-    transport::{Sensor, SensorTable, medium_at},
+    render::{LightPaths, Progress},
+    scene::{Measurand, Meter, Settings},
+    transport::{Sensor, medium_at},
 };
 use gonio_simd::Execution;
-use std::{f64::consts::PI, sync::Arc, time::Duration};
+use std::{f64::consts::PI, sync::Arc};
 
-/// How often progress is told.
-const TELL_EVERY: Duration = Duration::from_millis(50);
 /// Rounding errors of a position by its coordinates: that of the rebased point and that of the surface it may lie on.
 const POSITION_ERROR: f64 = 8.0 * f32::EPSILON as f64;
 /// Errors of a position that are well before the surface it lies on.
@@ -33,9 +35,16 @@ pub(super) struct Probe {
     /// Where a cylinder stands up from what it stands on; zero for all else.
     up: [f64; 3],
     looks: bool,
+    /// Metres within which light may be gathered that no path from the meter finds.
+    reach: f64,
 }
 
 impl Probe {
+    /// What stands for no more than `reach` metres about it.
+    pub(super) fn within(self, reach: f64) -> Self {
+        Self { reach, ..self }
+    }
+
     /// # Errors
     /// Positions and directions that are not finite or have no length.
     pub(super) fn new(meter: &Meter) -> Result<Self> {
@@ -43,7 +52,8 @@ impl Probe {
         let wrong = |what: &str, v: [f64; 3]| Error::scene(&meter.origin, problem(what, v));
         let position = Some(meter.position).filter(|p| p.iter().all(|x| x.is_finite())).ok_or_else(|| wrong("position", meter.position))?;
         let direction = |what, v: [f64; 3]| unit(v).ok_or_else(|| wrong(what, v));
-        let plane = |normal, looks| Self { position, normal, side: across(normal, [1.0, 0.0, 0.0]), turn: 0.0, up: [0.0; 3], looks };
+        let reach = f64::INFINITY;
+        let plane = |normal, looks| Self { position, normal, side: across(normal, [1.0, 0.0, 0.0]), turn: 0.0, up: [0.0; 3], looks, reach };
         Ok(match meter.measurand {
             Measurand::Illuminance | Measurand::DaylightFactor => plane(direction("normal", meter.normal)?, false),
             Measurand::Luminance => plane(direction("facing", meter.facing)?, true),
@@ -56,7 +66,7 @@ impl Probe {
                 }
                 let normal = across(axis, meter.facing);
                 let turn = if meter.measurand == Measurand::Cylindrical { PI } else { 0.5 * PI };
-                Self { position, normal, side: cross(axis, normal), turn, up: axis, looks: false }
+                Self { position, normal, side: cross(axis, normal), turn, up: axis, looks: false, reach }
             }
         })
     }
@@ -83,62 +93,78 @@ impl Probe {
     }
 }
 
+/// Part of the work that light paths to meters are, as progress tells it.
+const LIGHT_PATHS: f64 = 0.5;
+
+/// What probes show.
+pub(super) struct Sensed {
+    /// In their order; not a number where light that no path from the meter finds has no room to be counted.
+    pub(super) readings: Vec<Reading>,
+    /// Least and greatest radius of the discs that such light was counted on, metres; none where there is no such light.
+    pub(super) discs: Option<[f64; 2]>,
+    /// At how many probes light paths found more behind rough glass than the probes' own paths, and took their place.
+    pub(super) missed: usize,
+}
+
 /// Measures at all probes; `settings.samples` a point, rounded up to what a block of pixels has room for.
 pub(super) fn sense(
-    scene: Arc<CompiledScene>,
+    scene: &Arc<CompiledScene>,
     probes: &[Probe],
     settings: &Settings,
     execution: Execution,
-    progress: &mut dyn FnMut(&Progress) -> bool,
-) -> Result<Vec<Reading>> {
+    watch: &mut Watch<'_>,
+) -> Result<Sensed> {
     let radius = Some(scene.bounds.radius()).filter(|radius| radius.is_finite()).unwrap_or(0.0);
-    let sensors: Vec<Sensor> = probes.iter().map(|probe| probe.sensor(&scene, radius)).collect();
-    let table = SensorTable::new(&sensors);
-    let side = table.side();
-    let blocks: Vec<[usize; 2]> = (0..probes.len()).map(|sensor| table.block(sensor)).collect();
-    let settings = Settings {
-        resolution: table.resolution(),
-        crop: None,
-        sample_range: None,
-        tile_range: None,
-        noise_threshold: 0.0,
-        samples: settings.samples.div_ceil((side * side) as u32).max(1),
-        // Limits are for pictures' sake.
-        kind_bounces: [MOST_BOUNCES; 4],
-        clamp_direct: 0.0,
-        clamp_indirect: 0.0,
-        caustic_paths: [true; 2],
-        time_limit_s: 0.0,
-        aovs: vec![Aov::Luminance, Aov::Illuminance],
-        shader_passes: Vec::new(),
-        background: Background::Seen,
-        ..settings.clone()
-    };
-    let mut render = Render::sense(scene, table, &settings, execution);
-    while !render.is_finished() {
-        // Which tile it was does not matter; waiting for one keeps the loop quiet.
-        let _ = render.next_tile(TELL_EVERY);
-        if !progress(&render.progress()) {
-            render.cancel();
-        }
+    let sensors: Vec<Sensor> = probes.iter().map(|probe| probe.sensor(scene, radius)).collect();
+    let settings = unlimited(settings);
+    let sensing = Sensing { scene, sensors: &sensors, settings: &settings, execution };
+    let starts = light_paths_measure::for_meters(scene, &settings, watch.cancel);
+    let light_paths = starts.and_then(|starts| LightPaths::bringing(scene, &starts));
+    let rough = light_paths_measure::is_behind_rough_glass(scene, &settings);
+    if light_paths.is_none() && !rough {
+        return Ok(Sensed { readings: sensing.readings(watch.progress)?, discs: None, missed: 0 });
     }
-    render.finish()?;
-    let image = render.film().develop();
-    Ok(probes.iter().zip(blocks).map(|(probe, block)| pooled(&image, probe, block, side)).collect())
+    let of = |(probe, sensor): (&Probe, &Sensor)| if probe.looks { Disc::default() } else { Disc::of(sensor, probe.reach, scene) };
+    let discs = Discs::new(probes.iter().zip(&sensors).map(of).collect());
+    let readings = match light_paths {
+        None => sensing.readings(watch.progress)?,
+        Some(light_paths) => with_light_paths(&sensing, &discs, light_paths, watch)?,
+    };
+    let (readings, missed) = if rough { with_missed(&sensing, &discs, readings, watch)? } else { (readings, 0) };
+    let radii = || discs.all().iter().map(|disc| disc.radius).filter(|radius| *radius > 0.0);
+    let widest = radii().reduce(f64::max);
+    Ok(Sensed { readings, discs: widest.map(|widest| [radii().fold(widest, f64::min), widest]), missed })
 }
 
-/// Parts of a block along its side; each is a net of the sampler's sequence itself.
-const PARTS: usize = 4;
-
-/// The reading of a block of pixels.
-fn pooled(image: &Image, probe: &Probe, [left, top]: [usize; 2], side: usize) -> Reading {
-    let aov = if probe.looks { Aov::Luminance } else { Aov::Illuminance };
-    let values = image.layer(aov).map_or(&[][..], |layer| &layer.values);
-    let (width, part) = (image.size()[0], side / PARTS);
-    let mean = |number: usize| {
-        let [first_x, first_y] = [left + number % PARTS * part, top + number / PARTS * part];
-        let rows = (first_y..first_y + part).filter_map(|row| values.get(row * width + first_x..row * width + first_x + part));
-        rows.flatten().map(|value| f64::from(*value)).sum::<f64>() / (part * part) as f64
+/// With the light that light paths bring: to all surfaces as photons, and to the meters on discs.
+fn with_light_paths(
+    sensing: &Sensing<'_>,
+    discs: &Discs,
+    light_paths: (LightPaths, Arc<[u32]>),
+    watch: &mut Watch<'_>,
+) -> Result<Vec<Reading>> {
+    let mut progress = |all: f64, of_part: &Progress| {
+        let fraction = (1.0 - LIGHT_PATHS) * all;
+        (watch.progress)(&Progress { fraction, ..*of_part })
     };
-    Reading::of_parts((0..PARTS * PARTS).map(mean))
+    let mut values = vec![Vec::with_capacity(ROUNDS as usize); sensing.sensors.len()];
+    for round in 0..ROUNDS {
+        let done = |within: f64| (f64::from(round) + within) / f64::from(ROUNDS);
+        let found = sensing.round(light_paths.clone(), round, &mut |of_round| progress(done(of_round.fraction), of_round))?;
+        values.iter_mut().zip(found).for_each(|(values, value)| values.push(value));
+    }
+    let own: Vec<Reading> = values.iter().map(|values| Reading::of_parts(values.iter().copied())).collect();
+    let mut progress = |of_part: &Progress| {
+        let fraction = 1.0 - LIGHT_PATHS * (1.0 - of_part.fraction);
+        (watch.progress)(&Progress { fraction, ..*of_part })
+    };
+    let mut watch = Watch { previous: None, cancel: watch.cancel, progress: &mut progress };
+    let brought = brought(sensing, discs, &own, &Brought { sampler: light_paths.0.sampler(), whole: false }, &mut watch)?;
+    let all = sensing.sensors.iter().zip(discs.all()).zip(own.iter().zip(&brought));
+    let readings = all.map(|((sensor, disc), (own, brought))| match (sensor.looks, disc.radius > 0.0) {
+        (true, _) => *own,
+        (false, true) => own.plus(brought),
+        (false, false) => Reading { value: f64::NAN, standard_error: f64::NAN },
+    });
+    Ok(readings.collect())
 }

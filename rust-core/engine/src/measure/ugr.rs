@@ -5,12 +5,12 @@
 //! not know: where there are any, the rating without it stands beside the other. The background's luminance L_b is the illuminance at the eye without the luminaires' direct light, over π.
 
 use super::{
-    Watch,
     daylight_factor::without_emission,
     eye::{Eye, Share},
     glare::Coverage,
     reading::{Reading, SmallSources},
-    sense::{Probe, sense},
+    sense::{Probe, Sensed, sense},
+    watch::Watch,
 };
 use crate::{
     compile::{compile, is_luminaire, luminaires},
@@ -35,14 +35,19 @@ pub(super) fn ratings(
     let probes = meters.iter().map(|meter| Probe::new(meter)).collect::<Result<Vec<_>>>()?;
     let compiled = Arc::new(compile(scene, watch.previous, watch.cancel)?);
     diagnostics.extend(compiled.diagnostics.iter().cloned());
-    let all = sense(compiled.clone(), &probes, &scene.settings, execution, watch.progress)?;
+    let Sensed { readings: all, discs, .. } = sense(&compiled, &probes, &scene.settings, execution, watch)?;
+    if let (Some(_), Some(first)) = (discs, meters.first()) {
+        let message = "light of luminaires that mirrors and clear glass send to the eye counts as background: as a source each is rated where it is \
+                       seen directly";
+        diagnostics.push(Diagnostic::info(&first.origin, message));
+    }
     let alone = under_luminaires(scene);
     let under_them = Arc::new(compile(&alone, Some(&compiled), watch.cancel)?);
-    let direct = sense(under_them, &probes, &alone.settings, execution, watch.progress)?;
+    let direct = sense(&under_them, &probes, &alone.settings, execution, watch)?.readings;
     let luminaires = luminaires(scene, compiled.tables.origin);
     let rated = eyes.iter().zip(all.iter().zip(&direct)).map(|(eye, (all, direct))| {
-        let background =
-            Reading { value: (all.value - direct.value).max(0.0), standard_error: all.standard_error.hypot(direct.standard_error) };
+        let rest = if all.is_known() { (all.value - direct.value).max(0.0) } else { all.value };
+        let background = Reading { value: rest, standard_error: all.standard_error.hypot(direct.standard_error) };
         let mut coverage = Coverage::default();
         let shares: Vec<Share> = luminaires.iter().map(|luminaire| eye.glare(luminaire, &compiled, &mut coverage)).collect();
         let tabular: Option<f64> = shares.iter().map(|share| share.tabular).sum();
@@ -62,6 +67,9 @@ fn under_luminaires(scene: &Scene) -> Scene {
 
 /// By the sum over the sources and the background's illuminance at the eye.
 fn rating(sum: f64, background: &Reading) -> Reading {
+    if !background.is_known() {
+        return *background;
+    }
     if sum <= 0.0 {
         return Reading::default();
     }

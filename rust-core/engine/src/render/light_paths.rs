@@ -11,9 +11,9 @@ use crate::{
 use std::{ops::Range, sync::Arc};
 
 /// How light paths of a render start.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct LightPaths {
-    sampler: EmissionSampler,
+    sampler: Arc<EmissionSampler>,
     /// Whether they bring caustics alone; else all light is theirs.
     caustics: bool,
 }
@@ -30,14 +30,12 @@ pub(super) fn plan(scene: &CompiledScene, settings: &Settings) -> Option<(LightP
     };
     if settings.integrator == Integrator::Light {
         let sampler = EmissionSampler::new(&scene.tables.lights, None, sphere(scene), &scene.casters.targets);
-        return (!sampler.is_empty()).then(|| (LightPaths { sampler, caustics: false }, [].into()));
+        return (!sampler.is_empty()).then(|| (LightPaths { sampler: sampler.into(), caustics: false }, [].into()));
     }
     if !wanted || !light_paths_pay::are_possible(scene, settings) {
         return None;
     }
-    let starts = light_paths_pay::starts(scene);
-    let sampler = light_paths_pay::emission(scene, &starts);
-    (!sampler.is_empty()).then(|| (LightPaths { sampler, caustics: true }, starts.into_iter().map(u32::from).collect()))
+    LightPaths::bringing(scene, &light_paths_pay::starts(scene))
 }
 
 /// A sphere around all surfaces.
@@ -47,13 +45,20 @@ fn sphere(scene: &CompiledScene) -> ([f32; 3], f32) {
 }
 
 impl LightPaths {
+    /// Those that bring the caustics of some lights, and by light whether they start there; none where these send nothing.
+    pub(crate) fn bringing(scene: &CompiledScene, starts: &[bool]) -> Option<(Self, Arc<[u32]>)> {
+        let sampler = light_paths_pay::emission(scene, starts);
+        let started = || starts.iter().map(|starts| u32::from(*starts)).collect();
+        (!sampler.is_empty()).then(|| (Self { sampler: sampler.into(), caustics: true }, started()))
+    }
+
     /// Whether they bring caustics alone.
     pub(super) fn caustics(&self) -> bool {
         self.caustics
     }
 
     /// How paths start.
-    pub(super) fn sampler(&self) -> &EmissionSampler {
+    pub(crate) fn sampler(&self) -> &EmissionSampler {
         &self.sampler
     }
 

@@ -22,9 +22,9 @@ use crate::{
     light::LightCache,
     scene::{Aov, Crop, Integrator, Settings},
     threads::available_threads,
-    transport::{Estimator, GuidingField, PlaceTable, SensorTable, Statistics},
+    transport::{Estimator, FirstLight, GuidingField, PlaceTable, SensorTable, Statistics, Transport},
 };
-use light_paths::LightPaths;
+pub(crate) use light_paths::LightPaths;
 use photons::PhotonMaps;
 use schedule::Schedule;
 use source::Source;
@@ -83,22 +83,31 @@ impl Render {
         let (view, light_paths) = view(&scene, settings, execution)?;
         let power = light_paths.as_ref().map(LightPaths::power);
         let film = film_of(&scene, settings, view.window, view.exposure).with_splats(power);
-        Ok(Self::run(scene, settings, Source::View(view), film, light_paths))
+        Ok(Self::run(scene, settings, Source::View(view), film, light_paths, 0))
     }
 
     /// Goes on with a film that the same render has left; see [`crate::checkpoint`].
     pub fn resume(scene: Arc<CompiledScene>, settings: &Settings, execution: gonio_simd::Execution, film: Film) -> Result<Self> {
         let (view, light_paths) = view(&scene, settings, execution)?;
-        Ok(Self::run(scene, settings, Source::View(view), film, light_paths))
+        Ok(Self::run(scene, settings, Source::View(view), film, light_paths, 0))
     }
 
-    /// Starts measuring at sensors, whose picture has the resolution of the settings.
-    pub(crate) fn sense(scene: Arc<CompiledScene>, sensors: SensorTable, settings: &Settings, execution: gonio_simd::Execution) -> Self {
+    /// Starts measuring at sensors, whose picture has the resolution of the settings. Of the light that light paths bring what falls on meters
+    /// themselves is left out; `round` is the number of the render among those that are to be independent of each other.
+    pub(crate) fn sense(
+        scene: Arc<CompiledScene>,
+        sensors: SensorTable,
+        settings: &Settings,
+        execution: gonio_simd::Execution,
+        brought: Option<(LightPaths, Arc<[u32]>)>,
+        round: u32,
+    ) -> Self {
         let mut transport = transport(&scene, settings, execution, [0.0; 3], [0.0; 3]);
         transport.passes.illuminance = false;
+        let light_paths = bring(&mut transport, brought, FirstLight::Discs);
         let window = Crop { min: [0; 2], max: settings.resolution };
         let film = film_of(&scene, settings, window, 1.0);
-        Self::run(scene, settings, Source::Sensors { sensors, transport }, film, None)
+        Self::run(scene, settings, Source::Sensors { sensors, transport }, film, light_paths, round)
     }
 
     /// Starts baking at places, whose picture has the resolution of the settings.
@@ -106,20 +115,29 @@ impl Render {
         let mut transport = transport(&scene, settings, execution, [0.0; 3], [0.0, 0.0, -1.0]);
         // Places are measured themselves, whatever they are made of.
         transport.passes.illuminance = false;
+        let light_paths = bring(&mut transport, light_paths::plan(&scene, settings), FirstLight::Photons);
         let window = Crop { min: [0; 2], max: settings.resolution };
         let film = film_of(&scene, settings, window, 1.0);
-        Self::run(scene, settings, Source::Places { places, transport }, film, None)
+        Self::run(scene, settings, Source::Places { places, transport }, film, light_paths, 0)
     }
 
-    fn run(scene: Arc<CompiledScene>, settings: &Settings, source: Source, film: Film, light_paths: Option<LightPaths>) -> Self {
+    fn run(
+        scene: Arc<CompiledScene>,
+        settings: &Settings,
+        source: Source,
+        film: Film,
+        light_paths: Option<LightPaths>,
+        round: u32,
+    ) -> Self {
         let tiles = (0..film.tile_count()).map(|tile| film.state(tile));
         let schedule = Schedule::new(tiles, settings);
         let threads = if settings.threads == 0 { available_threads() } else { settings.threads as usize };
         let tiles = film.tile_count();
-        let photons = match &source {
-            Source::View(view) if light_paths.as_ref().is_some_and(LightPaths::caustics) => Some(PhotonMaps::new(&scene, view)),
-            _ => None,
+        let view = match &source {
+            Source::View(view) => Some(view),
+            Source::Sensors { .. } | Source::Places { .. } => None,
         };
+        let photons = light_paths.as_ref().filter(|paths| paths.caustics()).map(|_| PhotonMaps::new(&scene, view, round));
         let shared = Arc::new(Shared {
             scene,
             source,
@@ -215,14 +233,16 @@ fn view(scene: &CompiledScene, settings: &Settings, execution: gonio_simd::Execu
         by_light_alone(scene, settings)?;
         view.transport.estimator = Estimator::Seen;
     }
-    let planned = light_paths::plan(scene, settings);
-    Ok(match planned {
-        Some((light_paths, started)) => {
-            view.transport.light_paths = light_paths.caustics().then_some(started);
-            (view, Some(light_paths))
-        }
-        None => (view, None),
-    })
+    let light_paths = bring(&mut view.transport, light_paths::plan(scene, settings), FirstLight::Splats);
+    Ok((view, light_paths))
+}
+
+/// Leaves to light paths what they bring.
+fn bring(transport: &mut Transport, planned: Option<(LightPaths, Arc<[u32]>)>, first_light: FirstLight) -> Option<LightPaths> {
+    let (light_paths, started) = planned?;
+    transport.light_paths = light_paths.caustics().then_some(started);
+    transport.first_light = first_light;
+    Some(light_paths)
 }
 
 /// Refuses what no light path brings.

@@ -37,20 +37,22 @@ type Slot = Arc<OnceLock<Option<Arc<Photons>>>>;
 pub(super) struct PhotonMaps {
     /// Of the first block, metres.
     radius: f64,
-    /// That as many pixels as light paths of a sample spread over, m².
-    seen: f64,
+    /// That as many pixels as light paths of a sample spread over, m²; where no camera sees any, no place is bright.
+    seen: Option<f64>,
+    /// Number of the render among those that are to be independent of each other.
+    round: u32,
     maps: Mutex<BTreeMap<u32, Slot>>,
 }
 
 impl PhotonMaps {
-    /// Those of a view.
-    pub(super) fn new(scene: &CompiledScene, view: &View) -> Self {
+    /// Those of a view, or of what is seen by no camera.
+    pub(super) fn new(scene: &CompiledScene, view: Option<&View>, round: u32) -> Self {
         let room = scene.bounds.radius().max(f64::MIN_POSITIVE);
-        let pixel = |target: &([f32; 3], f32)| view.camera.pixel_width(target.0).map(f64::from);
+        let pixel = |target: &([f32; 3], f32)| view.and_then(|view| view.camera.pixel_width(target.0)).map(f64::from);
         let pixel = scene.casters.targets.iter().filter_map(pixel).fold(f64::INFINITY, f64::min);
         let radius = if pixel.is_finite() { pixel * PIXELS } else { room * 2e-3 };
         let radius = radius.clamp(room * 1e-4, room * 1e-2);
-        Self { radius, seen: seen::area(scene, view, surfaces(room)), maps: Mutex::default() }
+        Self { radius, seen: view.map(|view| seen::area(scene, view, surfaces(room))), round, maps: Mutex::default() }
     }
 
     /// The photons of a block with so many samples; none where making them was cancelled.
@@ -82,16 +84,19 @@ impl PhotonMaps {
                 if cancelled() {
                     return None;
                 }
-                let number = OTHER_BATCHES | u64::from(block) << 32 | batch;
+                let number = OTHER_BATCHES | u64::from(self.round) << 56 | u64::from(block) << 32 | batch;
                 tracer.trace(number, &mut arrived, &mut Vec::new(), workspace, cancelled);
             }
-            let shrinks = f64::from(block + 1).powf(0.5 * (KEEPS - 1.0));
+            let shrinks = f64::from(self.round + block + 1).powf(0.5 * (KEEPS - 1.0));
             let share = 1.0 / (batches * LIGHT_BATCH as u64) as f64;
-            let [direct, caustic] = [&arrived.direct, &arrived.caustic].map(|cells| cells.bright_places(share, self.seen));
+            let bright = self.seen.map_or_else(Bright::default, |seen| {
+                let [direct, caustic] = [&arrived.direct, &arrived.caustic].map(|cells| cells.bright_places(share, seen));
+                Bright { direct, caustic }
+            });
             let area = surfaces(scene.bounds.radius());
             let numbers = [self.radius * shrinks, shrinks, share, area];
             let covered = |photons: &[Photon], radius: f32| arrived.ground.covered(photons, radius);
-            Some(Arc::new(Photons::new(&arrived.photons, Bright { direct, caustic }, numbers, covered)))
+            Some(Arc::new(Photons::new(&arrived.photons, bright, numbers, covered)))
         };
         slot.get_or_init(make).clone()
     }

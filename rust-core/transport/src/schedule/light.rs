@@ -8,6 +8,7 @@ use crate::stage::emit::{Emission, emit};
 use crate::stage::forward::{LightIntegrator, Splat, Wanted};
 use crate::stage::glow::shine_starts;
 use crate::stage::intersect::{escape, find_surfaces};
+use crate::stage::segments::Segments;
 use crate::stage::shadow::occlude;
 use crate::stage::sort::{list_materials, sort_by_material};
 use crate::stage::start_media::start_media;
@@ -32,6 +33,8 @@ pub trait Receiver {
     fn arrived(&mut self, arrivals: &Arrivals);
     /// Flux that left the scene.
     fn escaped(&mut self, escapes: &Escapes);
+    /// Flux on its way to either.
+    fn travelled(&mut self, _: &Segments<'_>) {}
 }
 
 /// Traces light paths of a scene.
@@ -129,6 +132,7 @@ impl LightTracer<'_> {
         ws.statistics.rays += ws.paths.count as u64;
         ws.paths.set_times(&ws.times);
         find_surfaces(tables, transport, &mut ws.paths, &mut ws.nearest);
+        receiver.travelled(&Segments::new(&ws.paths, &ws.nearest.hits, &ws.queues.light_paths.starts));
         let light_paths = &mut ws.queues.light_paths;
         (light_paths.arrivals.count, light_paths.escapes.count) = (0, 0);
         dispatch!(transport.execution, l => {

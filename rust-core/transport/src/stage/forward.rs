@@ -43,7 +43,7 @@ pub enum Arriving {
     No,
     /// All, at any surface.
     All,
-    /// Photons: those at surfaces that are not specular alone.
+    /// Photons: those at surfaces that are not specular alone, black ones among them.
     Photons,
 }
 
@@ -99,7 +99,7 @@ impl Integrator for LightIntegrator<'_> {
         let noted = match self.wanted.arrivals {
             Arriving::No => l.m(false),
             Arriving::All => present,
-            Arriving::Photons => present & non_specular,
+            Arriving::Photons => present.and_not(all_delta),
         };
         if noted.any() && !material.surface.lobes.straight {
             arrive(chunk, point, noted, at, queues);

@@ -14,7 +14,7 @@ use crate::state::queue::shadow_rays::ShadowRays;
 use crate::state::sample::SampleContext;
 use crate::state::vertex::{CONE_PER_ROUGHNESS, Interaction};
 use crate::tables::Tables;
-use crate::tables::transport::Transport;
+use crate::tables::transport::{FirstLight, Transport};
 use gonio_camera::sampler::BATCH;
 use gonio_camera::sampler::dimension;
 use gonio_light::{FixedLightSample, LightSample, SampleWeight};
@@ -90,7 +90,7 @@ pub(crate) fn light_and_start<L: Lanes>(
             let sample = kernels::sample_li(l, tables, light_cache, receiver, &point.at.position, normal, &[u_light, u, v]);
             queue_shadow_ray(chunk, &point, &sample, SampleWeight::Mis, shadows, deposits);
         }
-        if let Some(photons) = &transport.photons {
+        if let (Some(photons), true) = (&transport.photons, transport.first_light != FirstLight::Discs) {
             let irradiance = irradiance(l, &photons.fine, point.at.position, point.at.geometric, point.alive, &mut found);
             let light = Contribution::sampled(l.u(0), point.slot, irradiance * point.throughput, l.u(0), None);
             deposits.deposit(transport, &light, point.alive & irradiance.is_lit());

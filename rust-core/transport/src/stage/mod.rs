@@ -15,6 +15,7 @@
 //! - [`shadow`] traces shadow rays and adds what arrives; [`volume`] says what light loses in what fills meshes.
 //!
 //! `schedule/light` starts light paths by [`emit`], and shades by [`forward`]. [`start_media`] says what absorbs where paths start.
+//! [`segments`] are the ways that light paths go.
 
 pub(crate) mod catcher;
 pub(crate) mod closure;
@@ -37,6 +38,7 @@ pub(crate) mod nee;
 pub(crate) mod places;
 pub(crate) mod portal;
 pub(crate) mod scatter;
+pub(crate) mod segments;
 pub(crate) mod sensors;
 pub(crate) mod shade;
 pub(crate) mod shadow;

@@ -56,9 +56,9 @@ const TILE_LOG2: u32 = TILE.trailing_zeros();
 const LEAST_SIDE_LOG2: u32 = 2;
 
 impl SensorTable {
-    /// Blocks are as large as lets all sensors fit into one tile, and no smaller than 4 × 4 pixels.
-    pub fn new(sensors: &[Sensor]) -> Self {
-        let fits = |side_log2: &u32| sensors.len() <= 1 << (2 * (TILE_LOG2 - side_log2));
+    /// Blocks are as large as lets all sensors fit into one tile, of at most so many pixels each, and no smaller than 4 × 4.
+    pub fn new(sensors: &[Sensor], most_pixels: usize) -> Self {
+        let fits = |side_log2: &u32| sensors.len() <= 1 << (2 * (TILE_LOG2 - side_log2)) && 1 << (2 * side_log2) <= most_pixels;
         let side_log2 = (LEAST_SIDE_LOG2..=TILE_LOG2).rev().find(fits).unwrap_or(LEAST_SIDE_LOG2);
         let room = gonio_simd::padded(sensors.len()) + gonio_simd::PADDING;
         let column = |value: &dyn Fn(&Sensor) -> f32| {

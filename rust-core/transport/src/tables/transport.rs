@@ -47,6 +47,20 @@ pub struct Transport {
     pub shutter: Option<Arc<Shutter>>,
     /// Photons that camera paths take up behind mirrors and smooth glass.
     pub photons: Option<Arc<Photons>>,
+    /// How the light of light paths comes to where paths start.
+    pub first_light: FirstLight,
+}
+
+/// How the light of light paths comes to where other paths start; elsewhere these take up photons.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum FirstLight {
+    /// As splats: the camera sees the surface directly.
+    #[default]
+    Splats,
+    /// As photons: the surface is baked.
+    Photons,
+    /// Not at all: what crosses a disc about a meter is added up apart. What a luminance meter sees takes up photons.
+    Discs,
 }
 
 /// Least share of a pixel's width that images are looked up over: less is sharper by little and reads many more tiles.

@@ -18,6 +18,7 @@ use crate::state::queue::light_samples::LightSampleQueue;
 use crate::state::queue::shadow_rays::ShadowRays;
 use crate::state::vertex::Vertex;
 use crate::tables::material::SurfaceMaterial;
+use crate::tables::transport::FirstLight;
 use gonio_bsdf::Lobes;
 use gonio_camera::sampler::dimension;
 use gonio_light::SampleWeight;
@@ -63,7 +64,8 @@ impl Integrator for PathIntegrator {
         if let Some(photons) = &transport.photons {
             // At what the camera sees directly, light paths left their light in the picture.
             let rough = (point.flags & flag::ROUGH).ne(0);
-            let unseen = going_on & non_specular & (point.bounces.ne(0) | rough);
+            let splats = l.m(transport.first_light == FirstLight::Splats);
+            let unseen = (going_on & non_specular).and_not(splats & point.bounces.eq(0) & !rough);
             for (map, chosen) in [(&photons.fine, unseen.and_not(rough)), (&photons.coarse, unseen & rough)] {
                 if chosen.any() {
                     merge(chunk, (map, &photons.bright.caustic), point, lobes, chosen, &mut queues.photons, deposits);

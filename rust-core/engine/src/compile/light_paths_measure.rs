@@ -1,0 +1,104 @@
+//! Which lights' light meters get of light paths, where mirrors and clear glass send it on: that which a meter's own paths would seldom or never meet.
+//!
+//! Pictures weigh noise against time (`light_paths_pay`). A meter that misses light shows a wrong figure without noise, so little is left to chance here.
+
+use super::{
+    CompiledScene,
+    light_paths_pay::{self, Brought, dome_mean, is_sizeless, mean},
+};
+use crate::{
+    bsdf::{
+        Surface,
+        parameter::{COAT_ROUGHNESS, ROUGHNESS},
+    },
+    light::{EmissionSampler, LightKind, LightRecord},
+    scene::{Caustics, Integrator, Settings},
+};
+use std::{f64::consts::PI, sync::atomic::AtomicBool};
+
+/// Batches of light paths that tell it.
+const BATCHES: u64 = 8;
+/// Variance of a meter's path from such light of a light, in squares of the light that it would give without mirrors and glass, from which light paths
+/// bring it: thousands of paths meet it often enough below.
+const LEAST_NOISE: f64 = 10.0;
+
+/// Roughness below which facets are mirrors.
+const SMOOTH: f32 = 5e-3;
+
+/// Whether light may come by glass that is rough, which is no business of light paths else.
+pub(crate) fn is_behind_rough_glass(scene: &CompiledScene, settings: &Settings) -> bool {
+    let lights = &scene.tables.lights;
+    let rough = |surface: &Surface| surface.lobes.transmission && !surface.lobes.smooth;
+    settings.integrator == Integrator::Path
+        && scene.tables.materials.surfaces.iter().any(|material| rough(&material.surface))
+        && !(0..lights.len() as u32).any(|light| lights.has_falloff(light))
+}
+
+/// How light paths of all lights start.
+pub(crate) fn all_light(scene: &CompiledScene) -> EmissionSampler {
+    let (centre, radius) = scene.bounds.sphere(scene.tables.origin);
+    EmissionSampler::new(&scene.tables.lights, None, (centre, (radius * (1.0 + 1e-5)) as f32), &[])
+}
+
+/// Whether anything sends light on sharply: mirrors and clear glass, and the polish on what else is not.
+fn sends_on(scene: &CompiledScene) -> bool {
+    let polished = |surface: &Surface| {
+        let [base, coat] = [ROUGHNESS, COAT_ROUGHNESS].map(|place| surface.constants[place] < SMOOTH);
+        surface.lobes.specular && base || surface.lobes.coat && coat
+    };
+    !scene.casters.targets.is_empty() || scene.tables.materials.surfaces.iter().any(|material| polished(&material.surface))
+}
+
+/// By light, whether light paths bring its light to meters; none where nothing has to be brought.
+pub(crate) fn for_meters(scene: &CompiledScene, settings: &Settings, cancel: &AtomicBool) -> Option<Vec<bool>> {
+    if !sends_on(scene) || settings.integrator != Integrator::Path {
+        return None;
+    }
+    if settings.caustics == Caustics::On {
+        return Some(light_paths_pay::starts(scene));
+    }
+    let brought = light_paths_pay::trace(scene, settings, BATCHES, cancel);
+    let records = scene.kept_lights.records();
+    let triangles = noise(scene, records.iter().zip(&brought).filter(|(record, _)| record.kind == LightKind::Triangle));
+    let starts = (0..).zip(records.iter().zip(&brought)).map(|(light, (record, brought))| {
+        if scene.tables.lights.has_falloff(light) {
+            return false;
+        }
+        match record.kind {
+            LightKind::Dome => is_peaked(scene, record),
+            LightKind::Triangle => triangles >= LEAST_NOISE,
+            _ if is_sizeless(record) && record.opening.is_none() => true,
+            _ => noise(scene, [(record, brought)].into_iter()) >= LEAST_NOISE,
+        }
+    });
+    Some(starts.collect()).filter(|starts: &Vec<bool>| starts.contains(&true))
+}
+
+/// The variance for lights together, see [`LEAST_NOISE`].
+fn noise<'a>(scene: &CompiledScene, lights: impl Iterator<Item = (&'a LightRecord, &'a Brought)>) -> f64 {
+    let (mut total, mut sent_on) = (0.0, 0.0);
+    for (record, Brought { straight, by_casters }) in lights {
+        total += straight + by_casters;
+        sent_on += radiance(record, straight + by_casters) * by_casters;
+    }
+    let radius = scene.bounds.radius();
+    if total > 0.0 { 4.0 * PI * PI * radius * radius * sent_on / (total * total) } else { 0.0 }
+}
+
+/// About the radiance of a light that sends a flux; that of an opening is not at hand, but its area.
+fn radiance(record: &LightRecord, flux: f64) -> f64 {
+    if record.opening.is_none() {
+        return mean(record.radiance.map(f32::abs));
+    }
+    let [a, b, ..] = record.to_world.map(|axis| axis.map(f64::from));
+    let cross = [0, 1, 2].map(|k| a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3]);
+    let area = 4.0 * cross.iter().map(|x| x * x).sum::<f64>().sqrt();
+    if area > 0.0 { flux / (PI * area) } else { f64::MAX }
+}
+
+/// Whether a dome has its light from a small part of it, as pictures of skies with a sun have.
+fn is_peaked(scene: &CompiledScene, record: &LightRecord) -> bool {
+    let images = scene.kept_lights.images();
+    let [once, twice] = [dome_mean(record, images, |radiance| radiance), dome_mean(record, images, |radiance| radiance * radiance)];
+    once > 0.0 && twice >= LEAST_NOISE * once * once
+}

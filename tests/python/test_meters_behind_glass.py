@@ -1,0 +1,51 @@
+"""Meters of all shapes whose light comes through clear or rough glass, where no path from them finds the lamp."""
+
+import math
+
+import gonio
+import numpy as np
+import pytest
+from small_scenes import QUAD
+from test_same_lux import MATT, lies, shell
+
+# Of a sphere of 5 mm and 3e6 cd/m².
+CANDELA = math.pi * 0.005**2 * 3e6
+
+
+def measured(samples, *meters, **glass):
+    """A lamp at 1 m in a shell, and a black wall at x = 2."""
+    scene = gonio.Scene()
+    scene.set(threads=2)
+    lies(scene, [[2, -3, 0], [2, 3, 0], [2, 3, 3], [2, -3, 3]], QUAD, name="wall", base_color=(0, 0, 0), **MATT)
+    shell(scene, **glass)
+    for position, how in meters:
+        scene.add_meter(position, **how)
+    return gonio.measure(scene, samples=samples)
+
+
+def test_planes_and_cylinders():
+    level = {"normal": (0, 0, 1), "facing": (-1, 0, 0)}
+    found = measured(
+        512,
+        ((0, 0, 0), {"normal": (0, 0, 1)}),
+        ((0, 0, 0.5), {"normal": (0, 0, 1)}),
+        ((1, 0, 1), {**level, "quantity": "cylindrical"}),
+        ((1, 0, 1), {**level, "quantity": "semicylindrical"}),
+    )
+    for meter, lux in zip(found.meters, (1, 4, 1 / math.pi, 2 / math.pi), strict=True):
+        assert 0 < meter.standard_error < 0.06 * lux * CANDELA
+        assert meter.value == pytest.approx(lux * CANDELA, abs=4 * meter.standard_error + 0.015 * lux * CANDELA)
+    assert any("disc of radius" in text for _, text in found.diagnostics)
+
+
+def test_dark_meters_have_an_error():
+    """Turned away from the lamp, and behind the wall."""
+    for meter in measured(64, ((0, 0, 0.5), {"normal": (0, 0, -1)}), ((2.1, 0, 1), {"normal": (0, 0, 1)})).meters:
+        assert meter.value == 0 and 0 < meter.standard_error < 0.1 * CANDELA
+
+
+def test_where_a_disc_has_no_room_there_is_no_figure():
+    found = measured(64, ((2, 0, 1), {"normal": (0, 0, 1)}))
+    assert np.isnan(found.meters[0].value)
+    assert any("no room" in text for _, text in found.diagnostics)
+    assert ",illuminance,,,lx," in found.csv()
