@@ -1,5 +1,6 @@
 //! A limit on memory while `pxr` opens files: counts in a corrupt crate file may ask for more than the machine has, and the system would end the process.
 
+use gonio::memory::machine_memory;
 use pyo3::prelude::*;
 use std::fs::read_to_string;
 
@@ -17,7 +18,11 @@ struct Former<'py> {
 impl<'py> MemoryLimit<'py> {
     /// Lowers the limit on the process's addresses to what it has and a share of what is free.
     pub fn new(py: Python<'py>) -> Self {
-        Self(free_bytes().and_then(|(used, free)| Former::lower(py, used + (free as f64 * SHARE) as u64).ok().flatten()))
+        Self(
+            addresses()
+                .zip(machine_memory())
+                .and_then(|(used, free)| Former::lower(py, used + (free as f64 * SHARE) as u64).ok().flatten()),
+        )
     }
 }
 
@@ -50,12 +55,9 @@ impl Drop for Former<'_> {
     }
 }
 
-/// Bytes of addresses that the process has, and bytes of memory that are free.
-fn free_bytes() -> Option<(u64, u64)> {
-    let kibibytes = |file: &str, name: &str| {
-        let text = read_to_string(file).ok()?;
-        let line = text.lines().find_map(|line| line.strip_prefix(name))?;
-        line.trim().trim_end_matches(" kB").parse::<u64>().ok()
-    };
-    Some((kibibytes("/proc/self/status", "VmSize:")? << 10, kibibytes("/proc/meminfo", "MemAvailable:")? << 10))
+/// Bytes of addresses that the process has.
+fn addresses() -> Option<u64> {
+    let text = read_to_string("/proc/self/status").ok()?;
+    let line = text.lines().find_map(|line| line.strip_prefix("VmSize:"))?;
+    Some(line.trim().trim_end_matches(" kB").parse::<u64>().ok()? << 10)
 }

@@ -13,13 +13,16 @@ use crate::{camera, daylight, light, light_filter, material, mesh_light, meter, 
 use gonio::scene::{
     Geometry, GridArea, Instances, Light, MaterialId, MeshId, Origin, Primvar, PrimvarInterpolation, Scene, Transform, Visibility,
 };
-use gonio::{Error, Result};
+use gonio::{Error, Result, memory::room_for};
 use linking::{Collections, LinkTable};
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 
 /// Most placed shapes of a stage.
 const MAX_PLACEMENTS: usize = 1 << 25;
+
+/// Bytes of a placed shape until it can be traced: its transformations, its rows of tables, its part of the tree.
+const PLACEMENT_BYTES: u64 = 500;
 
 /// Where a model is placed.
 #[derive(Clone, Debug)]
@@ -81,7 +84,6 @@ pub struct Placer<'w, 'a, 'py> {
     rebound: HashMap<String, MaterialId>,
     places: HashMap<Key, usize>,
     gathered: Vec<Gathered>,
-    placement_count: usize,
     geometry_lights: HashMap<(String, MaterialId), MaterialId>,
     /// Paths of prims whose kind is that of assets.
     assets: HashSet<String>,
@@ -104,6 +106,7 @@ pub fn place_world<'py>(context: &mut Context<'_, 'py>, world: &Model, failed: H
         role: None,
         stand_in: None,
     };
+    check_count(world)?;
     let links = LinkTable::new(context, world, &placement);
     let rebound = rebound::materials(context, world, &placement);
     let assets = matte_name::assets(context);
@@ -113,7 +116,6 @@ pub fn place_world<'py>(context: &mut Context<'_, 'py>, world: &Model, failed: H
         rebound,
         places: HashMap::new(),
         gathered: Vec::new(),
-        placement_count: 0,
         geometry_lights: HashMap::new(),
         assets,
         links,
@@ -122,6 +124,34 @@ pub fn place_world<'py>(context: &mut Context<'_, 'py>, world: &Model, failed: H
     placer.place(world, &placement)?;
     placer.finish();
     Ok(())
+}
+
+/// Refuses a world that places more than there is room for, before any of it is placed: models within models multiply.
+fn check_count(world: &Model) -> Result<()> {
+    let (mut known, mut total) = (HashMap::new(), 0_u64);
+    for element in &world.elements {
+        total = total.saturating_add(placements(element, &mut known));
+        let refused = |why: String| Err(Error::scene(&Origin::new(&element.path), why));
+        if total > MAX_PLACEMENTS as u64 {
+            return refused(format!("the stage has {total} instances with those placed here, the limit is {MAX_PLACEMENTS}"));
+        }
+        if let Err(shortage) = room_for(total * PLACEMENT_BYTES) {
+            return refused(format!("the stage has {total} instances with those placed here: {shortage}"));
+        }
+    }
+    Ok(())
+}
+
+/// Groups and shapes that an element places, all in all; those of models once each.
+fn placements(element: &Element, known: &mut HashMap<*const Model, u64>) -> u64 {
+    let Kind::Group(group) = &element.kind else { return 1 };
+    let model = Rc::as_ptr(&group.model);
+    let inside = known.get(&model).copied().unwrap_or_else(|| {
+        let inside = group.model.elements.iter().fold(0, |sum: u64, element| sum.saturating_add(placements(element, known)));
+        known.insert(model, inside);
+        inside
+    });
+    (group.transforms.len() as u64).saturating_mul(inside.saturating_add(1))
 }
 
 impl<'py> Placer<'_, '_, 'py> {
@@ -149,17 +179,8 @@ impl<'py> Placer<'_, '_, 'py> {
         placement.transforms.iter().map(|transform| transform.after(&element.to_model)).collect()
     }
 
-    fn count(&mut self, element: &Element, added: usize) -> Result<()> {
-        self.placement_count = self.placement_count.saturating_add(added);
-        if self.placement_count <= MAX_PLACEMENTS {
-            return Ok(());
-        }
-        Err(Error::scene(&Origin::new(&element.path), format!("the stage has more than {MAX_PLACEMENTS} instances with those placed here")))
-    }
-
     fn group(&mut self, element: &Element, group: &Group, purpose: Option<Purpose>, placement: &Placement) -> Result<()> {
         let outer = self.transforms(element, placement);
-        self.count(element, outer.len().saturating_mul(group.transforms.len()))?;
         let mut transforms = Vec::with_capacity(outer.len() * group.transforms.len());
         for transform in &outer {
             transforms.extend(group.transforms.iter().map(|inner| transform.after(inner)));
@@ -177,7 +198,6 @@ impl<'py> Placer<'_, '_, 'py> {
         if shape.geometry.mesh().is_some_and(|mesh| self.failed.contains(&mesh)) || !role.rendered {
             return Ok(());
         }
-        self.count(element, placement.transforms.len())?;
         let scene = &self.context.scene;
         let inherited = primvar::merged(&element.primvars, &placement.primvars);
         let primvars: Vec<Inherited> = inherited.iter().filter(|value| !has_primvar(scene, shape.geometry, &value.name)).cloned().collect();

@@ -22,7 +22,7 @@ pub mod threads;
 pub use gonio_accel as accel;
 pub use gonio_bsdf as bsdf;
 pub use gonio_camera as camera;
-pub use gonio_image::{colour, deep, texture};
+pub use gonio_image::{colour, deep, memory, texture};
 pub use gonio_light as light;
 pub use gonio_mesh as mesh;
 pub use gonio_scene as scene;

@@ -5,7 +5,8 @@ use crate::{
     antialias::Rule,
     camera::{Aperture, CameraTable, Lens},
     error::{Error, Result},
-    film::{Film, PictureProjection, PictureView, Placement, tabulate},
+    film::{ChannelLayout, Film, GROUP, PictureProjection, PictureView, Placement, tabulate},
+    memory::room_for,
     scene::{Antialiasing, Aov, Background, Camera, Crop, Integrator, Projection, Settings},
     transport::{Distance, Estimator, FirstLight, Limits, Mist, Passes, PathFilter, Transport, medium_at},
 };
@@ -41,6 +42,7 @@ impl View {
         check_deep(scene, settings)?;
         expressions::passes(scene, settings)?;
         check_tiles(settings, window)?;
+        check_memory(settings, window)?;
         let camera = scene.cameras.get(settings.camera as usize).ok_or_else(|| Error::Setting {
             name: "camera".into(),
             problem: format!("the scene has {} cameras, number {} was asked for", scene.cameras.len(), settings.camera),
@@ -153,6 +155,22 @@ pub(crate) fn check_tiles(settings: &Settings, window: Crop) -> Result<()> {
         return Ok(());
     }
     Err(Error::setting("tiles", format!("the range {}:{} was found, expected a part of 0:{count}", range.start, range.end)))
+}
+
+/// Bytes of a pixel that is tone-mapped and encoded.
+const SHOWN_BYTES: u64 = 16;
+
+/// Refuses pictures for whose sums there is no memory.
+fn check_memory(settings: &Settings, window: Crop) -> Result<()> {
+    let channels = ChannelLayout::with_divisors(&settings.aovs).channels as u64;
+    // Sums in double precision, another set from the second group of blocks on, and the picture of floats that is made of them.
+    let sums = if settings.samples > GROUP { 16 } else { 8 };
+    let pixels = |axis: usize| u64::from(window.max[axis] - window.min[axis]);
+    let bytes = pixels(0) * pixels(1) * (channels * (sums + 4) + SHOWN_BYTES);
+    room_for(bytes).map_err(|shortage| {
+        let problem = format!("{} x {} pixels of {channels} channels: {shortage}", pixels(0), pixels(1));
+        Error::setting("resolution", format!("{problem}; leave out passes, or render a part (crop)"))
+    })
 }
 
 /// The part of the image that settings ask for.

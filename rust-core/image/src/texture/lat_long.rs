@@ -5,10 +5,14 @@
 
 use super::error::TextureError;
 use super::image::Image;
+use super::limits::check_room;
 use super::resolve::Conversion;
 use crate::colour::ColourSpace;
 use rayon::prelude::*;
 use std::f64::consts::PI;
+
+/// What a texel of a light's image takes until it can be sampled: colours, a copy of them, and sums of probabilities.
+const TEXEL_BYTES: u64 = 40;
 
 /// How an image maps directions, by the names of UsdLux's `texture:format`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -43,6 +47,7 @@ impl LatLong {
         if image.is_empty() || image.texels.len() != image.len() * image.channels as usize {
             return Err(TextureError::malformed("the image has no texels"));
         }
+        check_room(TEXEL_BYTES * image.len() as u64, u64::from(image.width), u64::from(image.height))?;
         let conversion = Conversion::resolve(space, image);
         let linear = |index: usize| {
             let [r, g, b, _] = conversion.texel(image, index);

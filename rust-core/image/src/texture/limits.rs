@@ -1,6 +1,7 @@
 //! Sizes are checked before anything is allocated by what a header claims.
 
 use super::error::{TextureError, TextureErrorKind};
+use crate::memory::{free_memory, room_for};
 
 /// The longest side of an image.
 pub(crate) const MAX_SIDE: u64 = 65_536;
@@ -27,5 +28,22 @@ pub(crate) fn check_size(width: u64, height: u64, texel_bytes: u64, file_len: us
     if bytes > FREE_BYTES.max(file_len as u64 * MAX_EXPANSION) {
         return Err(TextureError::malformed(format!("the header claims {width} × {height} texels, which {file_len} bytes cannot hold")));
     }
-    Ok(())
+    // The decoder's own, and what is made of it.
+    check_room(2 * bytes, width, height)
+}
+
+/// The most bytes that a decoder may ask for.
+pub(crate) fn most_bytes() -> u64 {
+    free_memory().map_or(MAX_BYTES, |free| free.min(MAX_BYTES))
+}
+
+/// Checks that there is memory for so many bytes of an image.
+pub(crate) fn check_room(bytes: u64, width: u64, height: u64) -> Result<(), TextureError> {
+    if bytes <= FREE_BYTES {
+        return Ok(());
+    }
+    room_for(bytes).map_err(|shortage| {
+        TextureError::new(TextureErrorKind::TooLarge, format!("the image is {width} × {height} texels: {shortage}"))
+            .hint("make it smaller, or read it tile by tile within a texture memory")
+    })
 }

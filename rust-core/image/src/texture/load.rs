@@ -6,6 +6,7 @@ use super::image::{Image, Texels};
 use super::limits::MAX_BYTES;
 use super::mip_map::MipMap;
 use crate::colour::{ColourSpace, Stated};
+use crate::memory::room_for;
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -140,11 +141,16 @@ fn read_file(path: &Path) -> Result<Vec<u8>, TextureError> {
     if !file.is_file() {
         return Err(unreadable("the path is not a file".to_owned()));
     }
+    if file.len() == 0 {
+        // Some such files of the system never end.
+        return Err(TextureError::malformed("the file is empty"));
+    }
     if file.len() > MAX_BYTES {
         return Err(TextureError::new(
             TextureErrorKind::TooLarge,
             format!("the file has {} MiB, the limit is {} MiB", file.len() >> 20, MAX_BYTES >> 20),
         ));
     }
+    room_for(file.len()).map_err(|shortage| TextureError::new(TextureErrorKind::TooLarge, shortage.to_string()))?;
     std::fs::read(path).map_err(|error| unreadable(format!("the file cannot be read: {error}")))
 }

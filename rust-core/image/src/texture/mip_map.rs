@@ -3,6 +3,7 @@
 use super::encoder::Encoder;
 use super::error::{TextureError, TextureErrorKind};
 use super::image::{Image, Texels};
+use super::limits::check_room;
 use super::paged::{PagedTexels, TextureFacts};
 use super::product::times_alpha;
 use super::pyramid::{half_size, shrink};
@@ -85,6 +86,7 @@ impl MipMap {
             )
             .hint("split the image into UDIM tiles"));
         }
+        check_room(4 * words as u64, u64::from(image.width), u64::from(image.height))?;
         let transfer = conversion.transfer().filter(|_| format == TexelFormat::Byte).unwrap_or(Transfer::Linear);
         let note = match &image.stated {
             Stated::Unusable(what) if space == ColourSpace::Auto => Some(what.clone()),

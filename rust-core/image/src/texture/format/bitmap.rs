@@ -3,7 +3,7 @@
 use crate::colour::{Stated, from_profile};
 use crate::texture::error::{TextureError, TextureErrorKind};
 use crate::texture::image::{Image, Texels};
-use crate::texture::limits::{MAX_BYTES, check_size};
+use crate::texture::limits::{check_size, most_bytes};
 use image::codecs::{bmp::BmpDecoder, dds::DdsDecoder, gif::GifDecoder, jpeg::JpegDecoder, tga::TgaDecoder, webp::WebPDecoder};
 use image::{ColorType, ImageDecoder, ImageError, Limits};
 use std::io::Cursor;
@@ -72,7 +72,7 @@ pub(super) fn read(mut decoder: impl ImageDecoder, stated: Stated, file_len: usi
     let ((width, height), colour) = (decoder.dimensions(), decoder.color_type());
     check_size(u64::from(width), u64::from(height), u64::from(colour.bytes_per_pixel()), file_len)?;
     let mut limits = Limits::no_limits();
-    limits.max_alloc = Some(MAX_BYTES);
+    limits.max_alloc = Some(most_bytes());
     decoder.set_limits(limits).map_err(from_decoder)?;
     let mut buffer = vec![0; decoder.total_bytes() as usize];
     decoder.read_image(&mut buffer).map_err(from_decoder)?;

@@ -4,7 +4,7 @@ use super::bitmap::{from_decoder, read};
 use crate::colour::{Curve, Encoding, Gamut, Primaries, Stated, Transfer, from_profile};
 use crate::texture::error::TextureError;
 use crate::texture::image::Image;
-use crate::texture::limits::MAX_BYTES;
+use crate::texture::limits::most_bytes;
 use image::codecs::png::PngDecoder;
 use image::{ImageDecoder, Limits};
 use std::io::Cursor;
@@ -12,7 +12,7 @@ use std::io::Cursor;
 /// PNG of any colour type and depth; palettes and depths below 8 are expanded.
 pub(super) fn decode(bytes: &[u8]) -> Result<Image, TextureError> {
     let mut limits = Limits::no_limits();
-    limits.max_alloc = Some(MAX_BYTES);
+    limits.max_alloc = Some(most_bytes());
     let mut decoder = PngDecoder::with_limits(Cursor::new(bytes), limits).map_err(from_decoder)?;
     let profile = decoder.icc_profile().ok().flatten();
     let stated = stated(bytes, profile.as_deref(), u32::from(decoder.color_type().channel_count()));

@@ -4,7 +4,7 @@
 use crate::colour::{Stated, from_profile};
 use crate::texture::error::{TextureError, TextureErrorKind};
 use crate::texture::image::{Image, Texels};
-use crate::texture::limits::{MAX_BYTES, check_size};
+use crate::texture::limits::{check_size, most_bytes};
 use std::io::Cursor;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
@@ -13,7 +13,8 @@ use tiff::{ColorType, TiffError};
 /// Grey, RGB, CMYK or YCbCr of 1 to 64 bits; LZW, deflate, PackBits, JPEG and fax.
 pub(super) fn decode(bytes: &[u8]) -> Result<Image, TextureError> {
     let mut limits = Limits::default();
-    (limits.decoding_buffer_size, limits.intermediate_buffer_size) = (MAX_BYTES as usize, MAX_BYTES as usize);
+    let most = most_bytes() as usize;
+    (limits.decoding_buffer_size, limits.intermediate_buffer_size) = (most, most);
     let mut decoder = Decoder::new(Cursor::new(bytes)).map_err(from_tiff)?.with_limits(limits);
     let (width, height) = decoder.dimensions().map_err(from_tiff)?;
     let colour = decoder.colortype().map_err(from_tiff)?;
