@@ -68,7 +68,7 @@ pub fn bake(scene: &Scene, compiled: Arc<CompiledScene>, target: &BakeTarget, se
     let measures = settings.aovs.contains(&Aov::Illuminance);
     let looks = !measures || settings.aovs.iter().any(|aov| *aov != Aov::Illuminance);
     let table = PlaceTable::new(target.size, &places, viewpoint, [looks, measures]);
-    Ok(Render::at_places(compiled, table, &settings, execution))
+    Render::at_places(compiled, table, &settings, execution)
 }
 
 /// The compiled instance that is baked.

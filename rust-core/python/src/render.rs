@@ -15,6 +15,7 @@ use std::{
         Arc, OnceLock,
         atomic::{AtomicBool, Ordering},
     },
+    thread::Builder,
     time::{Duration, Instant},
 };
 
@@ -79,7 +80,9 @@ impl Render {
         let (send, started) = crossbeam_channel::bounded(1);
         let asked = stop.clone();
         // A thread that panics drops its sender, which the loop below finds out.
-        std::thread::spawn(move || send.send(start(&asked)));
+        Builder::new()
+            .spawn(move || send.send(start(&asked)))
+            .map_err(|error| PyRuntimeError::new_err(format!("the system gives no thread: {error}")))?;
         let wanted_no_more = || -> PyResult<bool> {
             py.check_signals()?;
             cancelled.map_or(Ok(false), |cancelled| cancelled.call0()?.is_truthy())
@@ -104,7 +107,12 @@ impl Render {
         }
     }
     fn running(&self) -> PyResult<&render::Render> {
-        self.running.as_ref().ok_or_else(|| PyRuntimeError::new_err("the render has been closed"))
+        let running = self.running.as_ref().ok_or_else(|| PyRuntimeError::new_err("the render has been closed"))?;
+        if !running.is_of_this_process() {
+            let problem = "this render goes on in the process that started it; a process split off from that (fork) has to start its own";
+            return Err(PyRuntimeError::new_err(problem));
+        }
+        Ok(running)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Filters that lie on the face of a rectangle: what it shows of itself.
 
 use super::slide::{Passed, Slide};
-use gonio::scene::Transform;
+use gonio::{scene::Transform, threads::in_pool};
 use rayon::prelude::*;
 
 /// Texels each way of a picture on a rectangle.
@@ -69,7 +69,7 @@ pub(super) fn picture(planes: &[Plane<'_>], [width, height]: [f64; 2]) -> Vec<f3
         let [r, g, b] = planes.iter().fold([1.0; 3], |all, plane| multiplied(all, plane.on_face(place)));
         [r, g, b, 1.0]
     };
-    (0..TEXELS * TEXELS).into_par_iter().flat_map_iter(texel).collect()
+    in_pool(|| (0..TEXELS * TEXELS).into_par_iter().flat_map_iter(texel).collect())
 }
 
 fn multiplied(a: Passed, b: Passed) -> Passed {

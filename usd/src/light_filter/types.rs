@@ -11,6 +11,7 @@ use crate::vt::AssetPath;
 use gonio::colour::ColourSpace;
 use gonio::scene::TextureSource;
 use gonio::texture::{self, DomeFormat, LatLong, Source};
+use gonio::threads::in_pool;
 
 /// What a filter of a type lets through; none, with a report, where it is not known or has no picture.
 pub(super) fn slide<'py>(context: &mut Context<'_, 'py>, light: &Prim<'py>, filter: &Prim<'py>, kind: &str) -> Option<Slide> {
@@ -113,7 +114,7 @@ fn image<'py>(context: &mut Context<'_, 'py>, filter: &Prim<'py>) -> Option<Pict
     let space = ColourSpace::parse(&stated_colour_space(&map)).unwrap_or(ColourSpace::Auto);
     let decoded = source.and_then(|source| {
         let image = texture::load_image(&source).map_err(|error| error.to_string())?;
-        let linear = LatLong::from_image(&image, DomeFormat::LatLong, space).map_err(|error| error.to_string())?;
+        let linear = in_pool(|| LatLong::from_image(&image, DomeFormat::LatLong, space)).map_err(|error| error.to_string())?;
         Ok((image, linear))
     });
     let size = [number(context, filter, &["width"], 1.0), number(context, filter, &["height"], 1.0)];

@@ -4,7 +4,7 @@ use super::Walker;
 use crate::build::{self, BuildError, BuiltMesh, MeshSource};
 use crate::kept::KeptShape;
 use gonio::scene::{Mesh, MeshId, Origin};
-use gonio::{Error, Result};
+use gonio::{Error, Result, threads::in_pool_later};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
@@ -70,7 +70,7 @@ impl Walker<'_, '_, '_> {
         pending.floats += floats;
         let (sender, stop) = (pending.sender.clone(), pending.stop.clone());
         // Without a receiver the reading has ended.
-        rayon::spawn(move || drop(sender.send(built(id, floats, source, &stop))));
+        in_pool_later(move || drop(sender.send(built(id, floats, source, &stop))));
         self.wait_for_meshes(PENDING_LIMIT)?;
         Ok(id)
     }

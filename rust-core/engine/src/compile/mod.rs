@@ -62,6 +62,7 @@ use crate::{
     error::{Diagnostic, Error, Result},
     film::Besides,
     scene::{Camera, Manifests, MatteName, Scene, matte_id},
+    threads::in_pool,
     transport::{MatteNames, NameRun, Tables, Workspaces},
 };
 use std::{
@@ -133,6 +134,10 @@ pub struct CompileStatistics {
 
 /// Lays a scene out; `previous` lends what did not change. Cancelling gives [`Error::Cancelled`] within a tenth of a second or so.
 pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicBool) -> Result<CompiledScene> {
+    in_pool(|| laid_out(scene, previous, cancel))
+}
+
+fn laid_out(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicBool) -> Result<CompiledScene> {
     let start = Instant::now();
     let complete = standard_passes::complete(scene);
     let scene = complete.as_ref();

@@ -8,7 +8,7 @@ use crate::{
     colour::luminance,
     deep::DeepPicture,
     scene::{Aov, Crop, Manifests},
-    threads::available_threads,
+    threads::{available_threads, start},
 };
 use std::{
     borrow::Cow,
@@ -105,7 +105,7 @@ impl Film {
         let next = || bands.lock().unwrap_or_else(PoisonError::into_inner).pop();
         let work = || std::iter::from_fn(next).map(|band| self.develop_band(band, &aovs, width)).reduce(together);
         let samples = std::thread::scope(|scope| {
-            let others: Vec<_> = (1..available_threads()).map(|_| scope.spawn(work)).collect();
+            let others: Vec<_> = (1..available_threads()).map_while(|_| start(scope, work)).collect();
             let own = work();
             others.into_iter().filter_map(|other| other.join().ok().flatten()).chain(own).reduce(together)
         });

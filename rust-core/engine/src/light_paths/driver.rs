@@ -3,7 +3,7 @@
 use crate::{
     compile::CompiledScene,
     error::{Error, Result},
-    threads::{available_threads, panic_message},
+    threads::{panic_message, start, workers},
     transport::{BatchFlux, LightTracer, Receiver, Splat, Statistics, Workspace},
 };
 use std::{
@@ -105,15 +105,19 @@ pub fn trace_batches<C: Collector>(job: &Job<'_>, batches: Range<u64>, collector
         failure: Mutex::new(None),
         statistics: Mutex::default(),
     };
-    let threads = if job.threads == 0 { available_threads() as u64 } else { u64::from(job.threads) };
-    let threads = threads.min(batches.end.saturating_sub(batches.start)).max(1);
+    let threads = (workers(job.threads) as u64).min(batches.end.saturating_sub(batches.start)).max(1);
     std::thread::scope(|scope| {
         let (running, ends) = channel();
-        for _ in 0..threads {
+        let worker = || {
             let (shared, running) = (&shared, running.clone());
-            scope.spawn(move || work(shared, running));
+            start(scope, move || work(shared, running))
+        };
+        let started = (0..threads).map_while(|_| worker()).count();
+        if started == 0 {
+            work(&shared, running);
+        } else {
+            drop(running);
         }
-        drop(running);
         shared.watch(&ends, watch.progress);
     });
     let Shared { done, ending, failure, statistics, .. } = shared;

@@ -11,6 +11,7 @@ use crate::{
     error::Result,
     geometry::GeometryTable,
     scene::{Antialiasing, Settings},
+    threads::in_pool,
     transport::{Start, Tracer, Workspace},
 };
 use gonio_simd::Execution;
@@ -50,8 +51,10 @@ pub fn view(
         Looking { maps, tracer: &tracer, camera: &camera, min: window.min, width: size[0], quantity, side: side.clamp(1, MOST_SIDE) };
     let mut values = vec![f32::NAN; size[0] * size[1]];
     let pixels = BATCH / (looking.side * looking.side) as usize;
-    let chunks = values.par_chunks_mut(pixels).enumerate();
-    chunks.for_each_init(|| scene.workspaces.take(), |workspace, (number, values)| looking.look(number * pixels, values, workspace));
+    in_pool(|| {
+        let chunks = values.par_chunks_mut(pixels).enumerate();
+        chunks.for_each_init(|| scene.workspaces.take(), |workspace, (number, values)| looking.look(number * pixels, values, workspace));
+    });
     Ok((values, size))
 }
 

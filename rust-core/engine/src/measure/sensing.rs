@@ -90,7 +90,7 @@ impl Sensing<'_> {
             ..self.settings.clone()
         };
         let brought = brought.map(|(brought, _)| brought);
-        let mut render = Render::sense(self.scene.clone(), table, &settings, self.execution, brought, round);
+        let mut render = Render::sense(self.scene.clone(), table, &settings, self.execution, brought, round)?;
         while !render.is_finished() {
             // Which tile it was does not matter; waiting for one keeps the loop quiet.
             let _ = render.next_tile(TELL_EVERY);

@@ -7,6 +7,7 @@ use crate::{
     deep::{DeepHeader, DeepPicture, write_deep},
     error::{Error, Result},
     film::Image,
+    threads::in_pool,
 };
 use std::{borrow::Cow, path::Path};
 
@@ -17,7 +18,7 @@ use std::{borrow::Cow, path::Path};
 pub fn write_deep_exr(path: &Path, image: &Image, options: &ExrOptions) -> Result<()> {
     let deep = image.deep.as_ref().ok_or_else(|| Error::setting("deep", "the picture was rendered without the pass 'deep'"))?;
     let deep = in_gamut(deep, options.gamut);
-    write_atomically(path, !options.hasty, |file| write_deep(&deep, &header(image, options), file))
+    write_atomically(path, !options.hasty, |file| in_pool(|| write_deep(&deep, &header(image, options), file)))
 }
 
 fn header(image: &Image, options: &ExrOptions) -> DeepHeader {

@@ -7,7 +7,7 @@ use crate::{
     compile::{CompiledScene, View},
     light::LightCache,
     scene::{Antialiasing, Guiding, Integrator, Settings},
-    threads::available_threads,
+    threads::{start, workers},
     transport::{GuidingField, GuidingNotes, Learning, Start, Tracer, Transport},
 };
 use std::{
@@ -125,8 +125,7 @@ impl<'a> Pilot<'a> {
         let [min, end] = [view.window.min, view.window.max];
         let corners = |axis: usize| (min[axis]..end[axis]).step_by(TILE);
         let tiles = corners(1).flat_map(|y| corners(0).map(move |x| [x, y])).collect();
-        let threads = if threads == 0 { available_threads() } else { threads as usize };
-        Self { scene, tracer, notes: GuidingNotes::default(), tiles, end, threads }
+        Self { scene, tracer, notes: GuidingNotes::default(), tiles, end, threads: workers(threads) }
     }
 
     /// Traces some samples of the picture; notes come in one order for any number of threads. `None` where that was cancelled.
@@ -136,7 +135,7 @@ impl<'a> Pilot<'a> {
         let next = AtomicUsize::new(0);
         std::thread::scope(|scope| {
             let work = || self.trace_parts(samples.start, &parts, &next, cancelled);
-            (1..self.threads.min(count)).for_each(|_| drop(scope.spawn(work)));
+            (1..self.threads.min(count)).for_each(|_| drop(start(scope, work)));
             work();
         });
         if cancelled() {

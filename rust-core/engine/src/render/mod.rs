@@ -21,7 +21,7 @@ use crate::{
     film::Film,
     light::LightCache,
     scene::{Aov, Crop, Integrator, Settings},
-    threads::available_threads,
+    threads::workers,
     transport::{Estimator, FirstLight, GuidingField, PlaceTable, SensorTable, Statistics, Transport},
 };
 pub(crate) use light_paths::LightPaths;
@@ -29,11 +29,13 @@ use photons::PhotonMaps;
 use schedule::Schedule;
 use source::Source;
 use std::{
+    mem::forget,
+    process,
     sync::{
         Arc, OnceLock,
         atomic::{AtomicBool, Ordering},
     },
-    thread::JoinHandle,
+    thread::{Builder, JoinHandle},
     time::Duration,
 };
 
@@ -43,6 +45,8 @@ pub struct Render {
     shared: Arc<Shared>,
     workers: Vec<JoinHandle<()>>,
     ready: crossbeam_channel::Receiver<usize>,
+    /// Whose threads the workers are.
+    process: u32,
 }
 
 /// What host and workers share.
@@ -83,13 +87,13 @@ impl Render {
         let (view, light_paths) = view(&scene, settings, execution)?;
         let power = light_paths.as_ref().map(LightPaths::power);
         let film = film_of(&scene, settings, view.window, view.exposure).with_splats(power);
-        Ok(Self::run(scene, settings, Source::View(view), film, light_paths, 0))
+        Self::run(scene, settings, Source::View(view), film, light_paths, 0)
     }
 
     /// Goes on with a film that the same render has left; see [`crate::checkpoint`].
     pub fn resume(scene: Arc<CompiledScene>, settings: &Settings, execution: gonio_simd::Execution, film: Film) -> Result<Self> {
         let (view, light_paths) = view(&scene, settings, execution)?;
-        Ok(Self::run(scene, settings, Source::View(view), film, light_paths, 0))
+        Self::run(scene, settings, Source::View(view), film, light_paths, 0)
     }
 
     /// Starts measuring at sensors, whose picture has the resolution of the settings. Of the light that light paths bring what falls on meters
@@ -101,7 +105,7 @@ impl Render {
         execution: gonio_simd::Execution,
         brought: Option<(LightPaths, Arc<[u32]>)>,
         round: u32,
-    ) -> Self {
+    ) -> Result<Self> {
         let mut transport = transport(&scene, settings, execution, [0.0; 3], [0.0; 3]);
         transport.passes.illuminance = false;
         let light_paths = bring(&mut transport, brought, FirstLight::Discs);
@@ -111,7 +115,12 @@ impl Render {
     }
 
     /// Starts baking at places, whose picture has the resolution of the settings.
-    pub(crate) fn at_places(scene: Arc<CompiledScene>, places: PlaceTable, settings: &Settings, execution: gonio_simd::Execution) -> Self {
+    pub(crate) fn at_places(
+        scene: Arc<CompiledScene>,
+        places: PlaceTable,
+        settings: &Settings,
+        execution: gonio_simd::Execution,
+    ) -> Result<Self> {
         let mut transport = transport(&scene, settings, execution, [0.0; 3], [0.0, 0.0, -1.0]);
         // Places are measured themselves, whatever they are made of.
         transport.passes.illuminance = false;
@@ -128,10 +137,9 @@ impl Render {
         film: Film,
         light_paths: Option<LightPaths>,
         round: u32,
-    ) -> Self {
+    ) -> Result<Self> {
         let tiles = (0..film.tile_count()).map(|tile| film.state(tile));
         let schedule = Schedule::new(tiles, settings);
-        let threads = if settings.threads == 0 { available_threads() } else { settings.threads as usize };
         let tiles = film.tile_count();
         let view = match &source {
             Source::View(view) => Some(view),
@@ -155,10 +163,14 @@ impl Render {
         let (send, ready) = crossbeam_channel::bounded(tiles.max(1));
         let spawn = |_| {
             let (shared, send) = (shared.clone(), send.clone());
-            std::thread::spawn(move || worker::work(&shared, &send))
+            Builder::new().spawn(move || worker::work(&shared, &send)).ok()
         };
-        let workers = (0..threads.max(1)).map(spawn).collect();
-        Self { shared, workers, ready }
+        // Fewer where the system has no more to give.
+        let workers: Vec<_> = (0..workers(settings.threads)).map_while(spawn).collect();
+        if workers.is_empty() {
+            return Err(Error::setting("threads", "the system gives this process no thread; its limit on processes may be reached"));
+        }
+        Ok(Self { shared, workers, ready, process: process::id() })
     }
 
     /// The next tile with new samples; `None` when the time is out or the render has ended (see [`Render::is_finished`]).
@@ -169,9 +181,14 @@ impl Render {
         Some(TileReady { tile, samples: self.shared.film.state(tile).samples })
     }
 
+    /// Whether its workers are threads of this process. One that was split off (`fork`) meanwhile has none of them, and nothing goes on there.
+    pub fn is_of_this_process(&self) -> bool {
+        self.process == process::id()
+    }
+
     /// Whether all workers have ended.
     pub fn is_finished(&self) -> bool {
-        self.workers.iter().all(JoinHandle::is_finished)
+        !self.is_of_this_process() || self.workers.iter().all(JoinHandle::is_finished)
     }
 
     /// How far it is.
@@ -212,6 +229,11 @@ impl Render {
 
     /// Waits for the end; a worker's failure comes out as an error, a cancelled render as [`Error::Cancelled`].
     pub fn finish(&mut self) -> Result<()> {
+        if !self.is_of_this_process() {
+            return Err(Error::Internal(
+                "a render goes on in the process that started it alone, not in one split off from that (fork)".into(),
+            ));
+        }
         for worker in self.workers.drain(..) {
             if worker.join().is_err() {
                 return Err(Error::Internal("a worker ended unexpectedly".into()));
@@ -267,6 +289,10 @@ fn film_of(scene: &CompiledScene, settings: &Settings, window: Crop, exposure: f
 
 impl Drop for Render {
     fn drop(&mut self) {
+        if !self.is_of_this_process() {
+            // Threads that are not there cannot be waited for.
+            return forget(std::mem::take(&mut self.workers));
+        }
         self.cancel();
         for worker in self.workers.drain(..) {
             // A panic was already turned into a failure; there is nobody left to tell.

@@ -12,6 +12,7 @@ use crate::{
     error::Result,
     goniometer::{Frame, Value},
     light_paths::{Channels, Estimate, Job, Progress, Watch, trace_batches},
+    threads::in_pool,
     transport::{Arriving, Emission, LIGHT_BATCH, LightTracer, RayTable, Statistics, Transport, Wanted},
 };
 use rayon::prelude::*;
@@ -106,7 +107,7 @@ impl<'a> Run<'a> {
             add_batch(&mut table, self.place, &self.options.basis, self.incident[*incident], batch, self.options.seed);
             table
         };
-        let parts: Vec<RayTable> = order.par_iter().map(one).collect();
+        let parts: Vec<RayTable> = in_pool(|| order.par_iter().map(one).collect());
         let joined = |column: fn(&RayTable) -> &[Vec<f32>; 3]| {
             [0, 1, 2].map(|k| parts.iter().flat_map(|part| &column(part)[k]).copied().collect::<Vec<f32>>())
         };

@@ -2,7 +2,7 @@
 
 use super::{Daylight, Frame, SUN_ANGLE_DEG, Sky, within};
 use crate::scene::{DomeFormat, Emission, Light, LightShape, Origin, Scene, Texture, TextureSource};
-use crate::{Error, Result};
+use crate::{Error, Result, threads::in_pool};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -57,7 +57,7 @@ pub(super) fn drawn(rows: u32, radiance: impl Fn([f64; 3]) -> [f64; 3] + Sync) -
         };
         (0..columns).flat_map(pixel).collect()
     };
-    let lines: Vec<Vec<f32>> = (0..rows).into_par_iter().map(line).collect();
+    let lines: Vec<Vec<f32>> = in_pool(|| (0..rows).into_par_iter().map(line).collect());
     Ok(SkyImage { width: columns, height: rows, rgba: lines.concat().into() })
 }
 

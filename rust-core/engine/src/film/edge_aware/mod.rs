@@ -11,7 +11,7 @@ mod rows;
 mod tests;
 
 use super::Image;
-use crate::scene::Aov;
+use crate::{scene::Aov, threads::in_pool};
 use gonio_simd::{Execution, F, Lanes, dispatch};
 use rayon::prelude::*;
 use rows::{GUIDE_CHANNELS, LIGHT_CHANNELS, LUMINANCE, Rows, VARIANCE};
@@ -47,6 +47,10 @@ struct Picture {
 /// The colour pass with most of its noise taken out, RGBA as in its layer; alpha stays. `None` where the colour or one of its guides, the passes
 /// [`Aov::DenoisingAlbedo`] and [`Aov::DenoisingNormal`], is missing.
 pub fn edge_aware(image: &Image, execution: Execution) -> Option<Vec<f32>> {
+    in_pool(|| filtered(image, execution))
+}
+
+fn filtered(image: &Image, execution: Execution) -> Option<Vec<f32>> {
     let values = |aov| image.layer(aov).map(|layer| layer.values.as_slice());
     let colour = values(Aov::Color)?;
     let guides = Guides { size: image.size(), albedo: values(Aov::DenoisingAlbedo)?, normal: values(Aov::DenoisingNormal)? };

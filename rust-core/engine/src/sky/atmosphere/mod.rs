@@ -5,7 +5,7 @@ mod single;
 mod table;
 
 use super::{SkyImage, colour, within};
-use crate::{Error, Result};
+use crate::{Error, Result, threads::in_pool};
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -103,7 +103,7 @@ impl Table {
                 colour::to_rec709(xyz).map(|value| value.max(0.0))
             })
         };
-        let rows: Vec<Vec<[f64; 3]>> = (0..=STEPS[0]).into_par_iter().map(|index| row(index).collect()).collect();
+        let rows: Vec<Vec<[f64; 3]>> = in_pool(|| (0..=STEPS[0]).into_par_iter().map(|index| row(index).collect()).collect());
         Self { values: rows.concat() }
     }
 

@@ -5,6 +5,7 @@
 use super::{Atmosphere, Model, Scattering};
 use crate::Result;
 use crate::sky::{SkyImage, within};
+use crate::threads::in_pool;
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -27,7 +28,7 @@ impl Atmosphere {
             Scattering::SingleInPieces => once_in_pieces(&*model, sun, row),
             Scattering::Multiple => often(&*model, sun, row),
         };
-        let lines: Vec<Vec<f32>> = (0..SIZE[1]).into_par_iter().rev().map(line).collect();
+        let lines: Vec<Vec<f32>> = in_pool(|| (0..SIZE[1]).into_par_iter().rev().map(line).collect());
         Ok(SkyImage { width: SIZE[0] as u32, height: SIZE[1] as u32, rgba: lines.concat().into() })
     }
 

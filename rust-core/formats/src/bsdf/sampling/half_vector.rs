@@ -8,6 +8,7 @@
 //! the sum of both ways to get to a direction, integrates to exactly one.
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::sync::{Mutex, PoisonError};
 use std::thread;
 
 use super::super::direction::{
@@ -91,22 +92,26 @@ impl HalfVectorTable {
         let points = resolution.points.max(1);
         let (slices, slice_len) = (self.slices[0] * self.slices[1], nodes[0] * nodes[1]);
         let mut weights = vec![0.0; slices * slice_len];
-        let share = slices.div_ceil(thread::available_parallelism().map_or(1, usize::from));
-        thread::scope(|scope| {
-            for (number, part) in weights.chunks_mut(share * slice_len).enumerate() {
-                scope.spawn(move || {
-                    for (slice, weights) in part.chunks_exact_mut(slice_len).enumerate() {
-                        let wo = self.view(number * share + slice);
-                        for (node, weight) in weights.iter_mut().enumerate() {
-                            let place = [node % nodes[0], node / nodes[0]];
-                            let scattered = around_node(place, nodes, points)
-                                .map(|(angles, area)| area * self.scattered(measured, luminance, pair, angles, wo));
-                            *weight = (scattered.sum::<f64>() / (points * points) as f64) as f32;
-                        }
-                    }
-                });
+        let left = Mutex::new(weights.chunks_exact_mut(slice_len).enumerate());
+        let next = || left.lock().unwrap_or_else(PoisonError::into_inner).next();
+        let work = || {
+            while let Some((slice, weights)) = next() {
+                let wo = self.view(slice);
+                for (node, weight) in weights.iter_mut().enumerate() {
+                    let place = [node % nodes[0], node / nodes[0]];
+                    let scattered = around_node(place, nodes, points)
+                        .map(|(angles, area)| area * self.scattered(measured, luminance, pair, angles, wo));
+                    *weight = (scattered.sum::<f64>() / (points * points) as f64) as f32;
+                }
             }
+        };
+        thread::scope(|scope| {
+            // The system may have no more threads to give.
+            let others = thread::available_parallelism().map_or(1, usize::from).min(slices);
+            (1..others).for_each(|_| drop(thread::Builder::new().spawn_scoped(scope, work)));
+            work();
         });
+        drop(left);
         Lobe::new(nodes[0], nodes[1], weights)
     }
 
