@@ -8,6 +8,10 @@ use pyo3::{intern, prelude::*};
 
 /// The bytes behind a resolved path: a file, or a part of a package. The message says what is wrong without naming the place.
 pub fn bytes(py: Python<'_>, place: &str) -> Result<Vec<u8>, String> {
+    // A pipe or a device would be waited for; what lies in packages and elsewhere is the resolver's business.
+    if std::fs::metadata(place).is_ok_and(|found| !found.is_file() || found.len() == 0) {
+        return Err("is empty or no file".to_owned());
+    }
     let read = || -> PyResult<Option<Vec<u8>>> {
         let resolved = Module::Ar.item(py, "ResolvedPath")?.call1((place,))?;
         let asset = Module::Ar.item(py, "GetResolver")?.call0()?.call_method1(intern!(py, "OpenAsset"), (resolved,))?;

@@ -1,13 +1,18 @@
 //! `gonio bench`.
 
-use super::{arguments::BenchOptions, print};
-use gonio::{Error, Result, output::write_atomically};
+use super::{
+    arguments::BenchOptions,
+    file::{check_targets, put},
+    print,
+};
+use gonio::{Error, Result};
 use gonio_bench::{Options, Stage, heading, paper, paper_pictures, plot, run};
-use std::{io::Write, sync::atomic::AtomicBool};
+use std::sync::atomic::AtomicBool;
 
 /// Measures, and prints the table or everything as JSON.
 pub(super) fn bench(options: &BenchOptions, interrupted: &AtomicBool) -> Result<i32> {
     let BenchOptions { stage, seconds, threads, scene, paper: as_paper, pictures, json, plot: chart } = options;
+    check_targets(chart)?;
     if let Some(folder) = pictures {
         let paths = paper_pictures(folder, *threads, interrupted)?;
         paths.iter().for_each(|path| print(&path.display().to_string()));
@@ -31,7 +36,7 @@ pub(super) fn bench(options: &BenchOptions, interrupted: &AtomicBool) -> Result<
         report.renders.iter().for_each(|render| print(&format!("\n{render}")));
     }
     if let Some(path) = chart {
-        write_atomically(path, true, |file| file.write_all(plot(&report).as_bytes()))?;
+        put(path, plot(&report).as_bytes())?;
     }
     Ok(0)
 }

@@ -37,9 +37,6 @@ impl Keeper {
             let problem = format!("{} is there already; --resume goes on with it, or remove it", path.display());
             return Err(Error::setting("checkpoint", problem));
         }
-        if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
-            std::fs::create_dir_all(folder).map_err(|error| Error::io(folder, error))?;
-        }
         let every = Duration::from_secs_f64(seconds.min(MOST_SECONDS));
         Ok(Self { path, identity, resume: arguments.resume, every, due: Instant::now() + every })
     }

@@ -1,14 +1,18 @@
 //! `gonio compare`.
 
-use super::{arguments::CompareOptions, print, say};
+use super::{
+    arguments::CompareOptions,
+    file::{check_targets, put},
+    print, say,
+};
 use gonio::{
     Error, Result,
-    output::{compare as compare_images, difference_picture, read_exr, write_atomically},
+    output::{compare as compare_images, difference_picture, encode_png, read_exr},
 };
-use std::io::Write;
 
 /// Compares two EXR files; status 1 past the limit.
 pub(super) fn compare(options: &CompareOptions) -> Result<i32> {
+    check_targets(&options.difference)?;
     let (mut image, size) = read_exr(&options.image)?;
     let (mut reference, expected) = read_exr(&options.reference)?;
     if size != expected {
@@ -42,10 +46,8 @@ pub(super) fn compare(options: &CompareOptions) -> Result<i32> {
     }
     if let Some(path) = &options.difference {
         let rgba = difference_picture(&image, &reference);
-        write_atomically(path, true, |file| {
-            let picture = gonio::output::encode_png(&rgba, size[0] as u32, size[1] as u32)?;
-            file.write_all(&picture)
-        })?;
+        let picture = encode_png(&rgba, size[0] as u32, size[1] as u32).map_err(|error| Error::io(path, error))?;
+        put(path, &picture)?;
     }
     let worst = comparison.worst();
     Ok(i32::from(comparison.channels.is_empty() || options.max.is_some_and(|max| worst > max)))

@@ -1,10 +1,12 @@
 //! `gonio completion`.
 
-use super::arguments::{Arguments, CompletionOptions, ShellArgument};
+use super::{
+    arguments::{Arguments, CompletionOptions, ShellArgument},
+    print,
+};
 use clap::CommandFactory;
 use clap_complete::{Shell, generate};
-use gonio::{Error, Result};
-use std::{io::Write, path::Path};
+use gonio::Result;
 
 /// Writes the shell's script to standard output.
 pub(super) fn completion(options: &CompletionOptions) -> Result<i32> {
@@ -16,6 +18,6 @@ pub(super) fn completion(options: &CompletionOptions) -> Result<i32> {
     // In one piece: a reader that leaves early must not break the generator off.
     let mut script = Vec::new();
     generate(shell, &mut Arguments::command(), "gonio", &mut script);
-    std::io::stdout().write_all(&script).map_err(|error| Error::io(Path::new("standard output"), error))?;
+    print(String::from_utf8_lossy(&script).trim_end());
     Ok(0)
 }

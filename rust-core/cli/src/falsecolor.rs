@@ -3,21 +3,21 @@
 use super::{
     arguments::{FalsecolorOptions, ScaleArguments},
     channel::Picture,
-    file::check_ending,
-    print,
+    file::{check_ending, check_targets, print_path, put},
 };
 use gonio::{
     Error, Result,
     film::{Frame, Image, Layer},
-    output::{Canvas, FalseColour, FalseColourScale, Look, display, encode_png, write_atomically},
+    output::{Canvas, FalseColour, FalseColourScale, Look, display, encode_png},
     scene::{Aov, Crop},
 };
 use gonio_simd::Execution;
-use std::{io::Write, path::Path};
+use std::path::Path;
 
 /// Draws the picture.
 pub(super) fn falsecolor(options: &FalsecolorOptions) -> Result<i32> {
     check_ending("output", &options.output, &["png"])?;
+    check_targets([&options.output])?;
     let picture = Picture::read(&options.image, &options.quantity)?;
     let style = FalseColour {
         scale: scale(&options.scale, picture.values())?,
@@ -32,7 +32,7 @@ pub(super) fn falsecolor(options: &FalsecolorOptions) -> Result<i32> {
         style.draw(picture.values(), picture.size)
     };
     write(&options.output, &canvas)?;
-    print(&options.output.display().to_string());
+    print_path(&options.output);
     Ok(0)
 }
 
@@ -50,8 +50,7 @@ pub(super) fn encoded(path: &Path, canvas: &Canvas) -> Result<Vec<u8>> {
 
 /// Writes a canvas as PNG.
 pub(super) fn write(path: &Path, canvas: &Canvas) -> Result<()> {
-    let bytes = encoded(path, canvas)?;
-    write_atomically(path, true, |file| file.write_all(&bytes))
+    put(path, &encoded(path, canvas)?)
 }
 
 /// The colour channels as the eye would see them, opaque.

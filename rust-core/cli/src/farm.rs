@@ -4,11 +4,15 @@ use super::{
     INTERRUPTED,
     arguments::{Arguments, Command, RenderOptions},
     denoise::Denoiser,
+    file::check_targets,
     file_name, list,
     output::{Notes, Writer},
     products::{gamut_of, half_layers},
     progress::Reporter,
-    render::{MOST_WARNINGS, attributes, complete_scene, frames_of, name_layers, sample_time, shows_motion, stage_options, write_cropped},
+    render::{
+        MOST_WARNINGS, attributes, complete_scene, files_of, frames_of, name_layers, sample_time, shows_motion, stage_options,
+        write_cropped,
+    },
 };
 use clap::Parser;
 use gonio::{
@@ -55,6 +59,7 @@ pub(super) fn render(py: Python<'_>, options: &mut RenderOptions, words: &[Strin
     let cluster = connect(py, options).map_err(|error| failure(py, &error))?;
     let stage = open(py, options)?;
     let frames = frames_of(options, stage.info().time_range.map(|[first, _]| first))?;
+    check_targets(&files_of(options, &stage, frames[0])?)?;
     let first = load(py, &stage, options, frames[0])?;
     if !options.quiet {
         list(&first.diagnostics, if options.stage.verbose { usize::MAX } else { MOST_WARNINGS });
@@ -109,11 +114,11 @@ fn write(options: &RenderOptions, writer: &Writer, files: &[PathBuf], first: &Lo
     };
     let named = file_name::named_frame(frame, first.info.time_range, options.default_time);
     let of_frame = |path: &PathBuf| file_name::filled_in(path, named);
-    if let Some(path) = &options.files.deep {
-        writer.write_deep(&of_frame(path)?, &image, &notes, options.quiet)?;
-    }
     let outputs: Vec<PathBuf> = options.files.output.iter().map(of_frame).collect::<Result<_>>()?;
-    write_cropped(writer, &outputs, &image, &notes, options)
+    let deep = options.files.deep.as_ref().map(of_frame).transpose()?;
+    let written = write_cropped(writer, &outputs, &image, &notes, options);
+    let deep = deep.map_or(Ok(()), |path| writer.write_deep(&path, &image, &notes, options.quiet));
+    written.and(deep)
 }
 
 /// `gonio.farm.Cluster`, which asks now and then whether Ctrl-C was pressed.

@@ -1,6 +1,12 @@
 //! `gonio glare`.
 
-use super::{arguments::GlareArguments, channel::Picture, falsecolor::write, file::check_ending, print};
+use super::{
+    arguments::GlareArguments,
+    channel::Picture,
+    falsecolor::write,
+    file::{check_ending, check_targets},
+    print,
+};
 use gonio::{
     Error, Result,
     film::PictureView,
@@ -16,6 +22,7 @@ const COLOURS: u32 = 8;
 pub(super) fn glare(options: &GlareArguments) -> Result<i32> {
     if let Some(path) = &options.output {
         check_ending("output", path, &["png"])?;
+        check_targets([path])?;
     }
     let picture = Picture::read(&options.image, &options.quantity)?;
     let view = EyeView::new(view(options, &picture)?, picture.size)?;

@@ -21,6 +21,7 @@ mod frames;
 mod glare;
 mod goniometer;
 mod info;
+mod interrupt;
 mod lamps_in_view;
 mod light_numbers;
 mod light_words;
@@ -47,10 +48,20 @@ use arguments::{Arguments, Command};
 use clap::Parser;
 use gonio::{Diagnostic, Error, Severity};
 use pyo3::Python;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::{
+    io,
+    path::Path,
+    sync::{
+        Mutex, PoisonError,
+        atomic::{AtomicBool, Ordering},
+    },
+};
 
-/// Set by the first Ctrl-C.
+/// Set by the first Ctrl-C, and by signals that ask to end.
 static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+
+/// What went wrong with standard output.
+static LOST: Mutex<Option<io::Error>> = Mutex::new(None);
 
 /// Exit status of a run that was interrupted.
 const INTERRUPTED_STATUS: i32 = 130;
@@ -106,7 +117,7 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
         Command::Bench(options) => py.detach(|| bench::bench(&options, &INTERRUPTED)),
         Command::Completion(options) => completion::completion(&options),
     };
-    match result {
+    match result.and_then(|status| check_printed().map(|()| status)) {
         Ok(status) => status,
         Err(Error::Cancelled) => {
             say("interrupted");
@@ -128,10 +139,20 @@ fn say(line: &str) {
     let _ = writeln!(std::io::stderr(), "gonio: {line}");
 }
 
-/// A line on standard output.
+/// A line on standard output; one that is lost is told at the end. Who closed a pipe wants no more.
 fn print(line: &str) {
     use std::io::Write;
-    let _ = writeln!(std::io::stdout(), "{line}");
+    if let Err(error) = writeln!(std::io::stdout(), "{line}")
+        && error.kind() != std::io::ErrorKind::BrokenPipe
+    {
+        *LOST.lock().unwrap_or_else(PoisonError::into_inner) = Some(error);
+    }
+}
+
+/// Says what became of standard output, where lines of it were lost.
+fn check_printed() -> gonio::Result<()> {
+    let lost = LOST.lock().unwrap_or_else(PoisonError::into_inner).take();
+    lost.map_or(Ok(()), |error| Err(Error::io(Path::new("standard output"), error)))
 }
 
 /// Lists what is not as asked: warnings line by line, at most `most`, and how many more there are.
@@ -142,32 +163,5 @@ fn list(diagnostics: &[Diagnostic], most: usize) {
     }
     if warnings.len() > most {
         say(&format!("{} more warnings; --verbose lists them all", warnings.len() - most));
-    }
-}
-
-mod interrupt {
-    //! Ctrl-C through Python's own machinery, so that nothing unsafe is needed.
-
-    use super::{INTERRUPTED, snapshot::SNAPSHOT_ASKED};
-    use pyo3::{prelude::*, types::PyCFunction};
-    use std::sync::atomic::Ordering;
-
-    /// Makes the first Ctrl-C end the render in order, and later ones as well; outside the main thread nothing is installed.
-    pub(super) fn install() {
-        Python::attach(|py| {
-            let installed = || -> PyResult<()> {
-                let handler = PyCFunction::new_closure(py, None, None, |_, _| INTERRUPTED.store(true, Ordering::Relaxed))?;
-                let signal = py.import("signal")?;
-                signal.call_method1("signal", (signal.getattr("SIGINT")?, handler))?;
-                // Not all systems have it.
-                if let Ok(number) = signal.getattr("SIGUSR1") {
-                    let handler = PyCFunction::new_closure(py, None, None, |_, _| SNAPSHOT_ASKED.store(true, Ordering::Relaxed))?;
-                    signal.call_method1("signal", (number, handler))?;
-                }
-                Ok(())
-            };
-            // Python installs handlers in its main thread alone; elsewhere Ctrl-C belongs to the host.
-            let _ = installed();
-        });
     }
 }

@@ -3,7 +3,7 @@
 use super::{
     arguments::MapArguments,
     daylight, falsecolor,
-    file::{check_ending, ending},
+    file::{check_ending, check_targets, ending, print_path, put, write_or_keep},
     list, print,
     progress::Reporter,
     render::{MOST_WARNINGS, stage_options},
@@ -18,7 +18,7 @@ use gonio::{
         IlluminationMaps, MapOptions, Quantity, SurfaceMap, TexelSize, divided_meshes, illumination_maps, map_layer, view, write_map_exr,
     },
     measure::MOST_BOUNCES,
-    output::{FalseColour, write_atomically},
+    output::FalseColour,
     scene::Scene,
     transport::LIGHT_BATCH,
 };
@@ -31,7 +31,6 @@ use pyo3::prelude::*;
 use serde_json::{Value, json};
 use std::{
     collections::HashMap,
-    io::Write,
     path::{Path, PathBuf},
     sync::atomic::{AtomicBool, Ordering},
     time::Instant,
@@ -48,6 +47,7 @@ pub(super) fn map(py: Python<'_>, options: &MapArguments, interrupted: &'static 
     if options.uv.is_none() && options.output.iter().any(|path| ending(path) == "exr") {
         return Err(Error::setting("output", "a texture wants texture coordinates: --uv st"));
     }
+    check_targets(&options.output)?;
     let mut stage_options = stage_options(&options.stage)?;
     stage_options.time = options.frame.map_or(SampleTime::Start, SampleTime::Code);
     let stage = Stage::open(py, &options.stage.stage, &stage_options)?;
@@ -98,10 +98,7 @@ fn run(
         print(&as_json(&maps, seconds).to_string());
     } else {
         as_text(&maps, seconds).iter().for_each(|line| print(line));
-        written
-            .iter()
-            .chain(options.output.iter().filter(|path| ending(path) == "png"))
-            .for_each(|path| print(&path.display().to_string()));
+        written.iter().chain(options.output.iter().filter(|path| ending(path) == "png")).for_each(|path| print_path(path));
     }
     Ok(0)
 }
@@ -175,7 +172,7 @@ fn write(options: &MapArguments, scene: &Scene, maps: &IlluminationMaps, stage: 
     for path in &textures {
         for (number, map) in maps.surfaces.iter().enumerate() {
             let path = if maps.surfaces.len() == 1 { path.clone() } else { named(path, map, number) };
-            write_map_exr(&path, map)?;
+            write_or_keep(&path, |path| write_map_exr(path, map))?;
             names.insert(number, path.clone());
             written.push(path);
         }
@@ -196,7 +193,7 @@ fn write(options: &MapArguments, scene: &Scene, maps: &IlluminationMaps, stage: 
         if options.divided {
             text.push_str(&divided_meshes(scene, maps, stage.info().metres_per_unit)?);
         }
-        write_atomically(path, true, |file| file.write_all(text.as_bytes()))?;
+        put(path, text.as_bytes())?;
         written.push(path.clone());
     }
     Ok(written)

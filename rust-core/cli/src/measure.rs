@@ -3,7 +3,7 @@
 use super::{
     arguments::{GridArguments, MeasureOptions},
     daylight, falsecolor,
-    file::check_ending,
+    file::{check_ending, check_targets, print_path, put},
     glare::coverage_json,
     list, print,
     progress::Reporter,
@@ -13,7 +13,7 @@ use gonio::{
     Error, Result,
     compile::CompiledScene,
     measure::{GridReading, MOST_BOUNCES, Measurements, MeterReading, Reading, Watch, csv, measure as evaluate, value_picture},
-    output::{FalseColour, write_atomically},
+    output::FalseColour,
     scene::{Measurand, Meter, Origin, Scene},
 };
 use gonio_simd::Execution;
@@ -21,7 +21,6 @@ use gonio_usd::{Loaded, SampleTime, Stage, context::UpAxis};
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 use std::{
-    io::Write,
     path::{Path, PathBuf},
     sync::atomic::{AtomicBool, Ordering},
 };
@@ -31,6 +30,7 @@ pub(super) fn measure(py: Python<'_>, options: &MeasureOptions, interrupted: &'s
     for (option, path, ending) in [("output", &options.output, "png"), ("csv", &options.csv, "csv")] {
         path.iter().try_for_each(|path| check_ending(option, path, &[ending]))?;
     }
+    check_targets(options.output.iter().chain(&options.csv))?;
     let measurand = options.quantity.as_deref().map(measurand).transpose()?;
     let mut stage_options = stage_options(&options.stage)?;
     stage_options.time = options.frame.map_or(SampleTime::Start, SampleTime::Code);
@@ -78,7 +78,7 @@ fn run(options: &MeasureOptions, mut loaded: Loaded, interrupted: &'static Atomi
         list(&found.diagnostics, most);
     }
     if let Some(path) = &options.csv {
-        write_atomically(path, true, |file| file.write_all(csv(&found).as_bytes()))?;
+        put(path, csv(&found).as_bytes())?;
     }
     if let Some(path) = &options.output {
         draw(options, &found, path)?;
@@ -152,7 +152,7 @@ fn draw(options: &MeasureOptions, found: &Measurements, path: &Path) -> Result<(
         let path = if found.grids.len() == 1 { path.to_owned() } else { named(path, grid, number) };
         falsecolor::write(&path, &value_picture(grid, &style))?;
         if !options.quiet && !options.json {
-            print(&path.display().to_string());
+            print_path(&path);
         }
     }
     Ok(())

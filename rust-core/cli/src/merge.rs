@@ -2,6 +2,7 @@
 
 use super::{
     arguments::MergeArguments,
+    file::check_targets,
     output::{Notes, Writer},
     say,
 };
@@ -14,6 +15,7 @@ pub(super) fn merge(options: &MergeArguments) -> Result<i32> {
         return Err(Error::setting("output", "no file was given; say -o picture.exr"));
     }
     let writer = Writer::new(&options.files, Execution::detect())?;
+    check_targets(options.files.output.iter().chain(&options.files.deep))?;
     let whole = join(&options.parts)?;
     let range = whole.film.range();
     if !options.quiet {
@@ -22,9 +24,8 @@ pub(super) fn merge(options: &MergeArguments) -> Result<i32> {
     let notes = Notes { exposure: whole.identity.exposure, attributes: &whole.identity.notes, ..Notes::default() };
     let mut image = whole.film.develop();
     writer.finish(&mut image)?;
-    if let Some(path) = &options.files.deep {
-        writer.write_deep(path, &image, &notes, options.quiet)?;
-    }
-    writer.write_all(&options.files.output, &image, &notes, options.quiet)?;
-    Ok(0)
+    // What can be written is, whatever becomes of the other.
+    let written = writer.write_all(&options.files.output, &image, &notes, options.quiet);
+    let deep = options.files.deep.as_ref().map_or(Ok(()), |path| writer.write_deep(path, &image, &notes, options.quiet));
+    written.and(deep).map(|()| 0)
 }

@@ -1,17 +1,23 @@
 //! Writing a picture under the names asked for.
 
-use super::{arguments::OutputArguments, denoise::Denoiser, file::make_folder, print};
+use super::{
+    arguments::OutputArguments,
+    denoise::Denoiser,
+    file::{make_folder, print_path, write_or_keep},
+};
 use gonio::{
     Error, Result,
     colour::Gamut,
     film::Image,
     output::{Adaptation, DisplaySpace, ExrOptions, Look, ToneMap, log_average, write_deep_exr, write_exr, write_picture},
     scene::{Aov, Settings},
+    threads::start,
 };
 use gonio_simd::Execution;
 use std::{
     path::{Path, PathBuf},
     sync::{Mutex, PoisonError},
+    thread::ScopedJoinHandle,
 };
 
 /// What a file says about its picture.
@@ -109,27 +115,36 @@ impl Writer {
     pub(super) fn write_all(&self, paths: &[PathBuf], image: &Image, about: &Notes<'_>, quiet: bool) -> Result<()> {
         let as_it_is = about.camera_lit && !self.is_stated;
         let look = if as_it_is { Look { tone_map: ToneMap::None, ..self.look } } else { self.look_at(image, about) };
-        paths.iter().try_for_each(|path| make_folder(path))?;
+        // Where a folder is gone meanwhile and cannot be made, writing tells.
+        paths.iter().for_each(|path| drop(make_folder(path)));
         let written: Vec<Result<()>> = std::thread::scope(|scope| {
-            let writers: Vec<_> = paths.iter().map(|path| scope.spawn(move || self.write(path, image, &look, about))).collect();
+            let write = |path| move || self.write(path, image, &look, about);
+            let writers: Vec<_> = paths.iter().map(|path| start(scope, write(path))).collect();
             let broken = |_| Err(Error::Internal("the writing of a file broke off".into()));
-            writers.into_iter().map(|writer| writer.join().unwrap_or_else(broken)).collect()
+            let mut ended = Vec::with_capacity(paths.len());
+            for (writer, path) in writers.into_iter().zip(paths) {
+                ended.push(writer.map_or_else(write(path), |writer| writer.join().unwrap_or_else(broken)));
+            }
+            ended
         });
+        let mut failed = None;
         for (path, result) in paths.iter().zip(written) {
-            result?;
-            if !quiet {
-                print(&path.display().to_string());
+            // What was written is told, whatever became of the others.
+            match result {
+                Ok(()) if quiet => {}
+                Ok(()) => print_path(path),
+                Err(error) => failed = failed.or(Some(error)),
             }
         }
-        Ok(())
+        failed.map_or(Ok(()), Err)
     }
 
     /// Writes the picture's deep samples.
     pub(super) fn write_deep(&self, path: &Path, image: &Image, about: &Notes<'_>, quiet: bool) -> Result<()> {
-        make_folder(path)?;
-        write_deep_exr(path, image, &self.exr_options(about))?;
+        drop(make_folder(path));
+        write_or_keep(path, |path| write_deep_exr(path, image, &self.exr_options(about)))?;
         if !quiet {
-            print(&path.display().to_string());
+            print_path(path);
         }
         Ok(())
     }
@@ -164,10 +179,14 @@ impl Writer {
 
     /// Writes one file.
     fn write(&self, path: &Path, image: &Image, look: &Look, about: &Notes<'_>) -> Result<()> {
-        if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("exr")) {
-            write_exr(path, image, &self.exr_options(about))
-        } else {
-            write_picture(path, image, look, self.execution)
-        }
+        let write = |path: &Path| {
+            if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("exr")) {
+                write_exr(path, image, &self.exr_options(about))
+            } else {
+                write_picture(path, image, look, self.execution)
+            }
+        };
+        // The next snapshot may find room.
+        if about.snapshot { write(path) } else { write_or_keep(path, write) }
     }
 }

@@ -1,6 +1,10 @@
 //! `gonio relight`.
 
-use super::{arguments::RelightOptions, file::check_ending, print, say};
+use super::{
+    arguments::RelightOptions,
+    file::{check_ending, check_targets, print_path, write_or_keep},
+    say,
+};
 use gonio::{
     Error, Result,
     colour::luminance_of_pixel,
@@ -19,6 +23,7 @@ const MOST_MISSING: f64 = 0.01;
 /// Sums the groups of an image, each times its factor and colour.
 pub(super) fn relight(options: &RelightOptions) -> Result<i32> {
     check_ending("output", &options.output, &["exr"])?;
+    check_targets([&options.output])?;
     let asked = options.group.iter().map(|text| parse(text)).collect::<Result<Vec<_>>>()?;
     let (channels, size) = read_exr(&options.image)?;
     let exposure = exposure_of_exr(&options.image)?;
@@ -41,8 +46,8 @@ pub(super) fn relight(options: &RelightOptions) -> Result<i32> {
     let factor = |name: &String| asked.iter().rev().find(|(asked, _)| asked == name).map_or([1.0; 3], |(_, factor)| *factor);
     let mut image = relit(&channels, size, exposure, &names, factor);
     image.frame.view = view_of_exr(&options.image)?;
-    write_exr(&options.output, &image, &ExrOptions { exposure, ..ExrOptions::default() })?;
-    print(&options.output.display().to_string());
+    write_or_keep(&options.output, |path| write_exr(path, &image, &ExrOptions { exposure, ..ExrOptions::default() }))?;
+    print_path(&options.output);
     Ok(0)
 }
 

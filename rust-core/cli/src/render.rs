@@ -4,7 +4,9 @@ use super::{
     arguments::{ComplexityArgument, FilterArgument, HeadlightArgument, RenderOptions, StageArguments},
     autocrop,
     checkpoint::{Keeper, sample_range, take_part},
-    daylight, explain, file_name, frames, list,
+    daylight, explain,
+    file::check_targets,
+    file_name, frames, list,
     output::{Notes, Writer},
     print,
     products::{Picture, Products, half_layers},
@@ -88,6 +90,7 @@ impl Sequence<'_> {
     fn frame(&mut self, py: Python<'_>, frame: Option<f64>, interrupted: &'static AtomicBool) -> Result<()> {
         let (options, stage, writer, execution) = (self.options, self.stage, self.writer, self.execution);
         self.stage_options.time = sample_time(options, frame);
+        check_targets(&files_of(options, stage, frame)?)?;
         let start = Instant::now();
         let loaded = stage.load(py, &self.stage_options, interrupted)?;
         let (loading, waited_for_meshes) = (start.elapsed(), loaded.waited_for_meshes);
@@ -120,6 +123,13 @@ impl Sequence<'_> {
         }
         Ok(())
     }
+}
+
+/// The files that the command line names for a frame.
+pub(super) fn files_of(options: &RenderOptions, stage: &Stage, frame: Option<f64>) -> Result<Vec<PathBuf>> {
+    let frame = file_name::named_frame(frame, stage.info().time_range, options.default_time);
+    let named = options.files.output.iter().chain(&options.files.deep).chain(&options.checkpoint.checkpoint);
+    named.map(|path| file_name::filled_in(path, frame)).collect()
 }
 
 /// When the stage is read for a frame.
@@ -237,6 +247,8 @@ struct Job<'a> {
 impl Job<'_> {
     /// Compiles, renders and writes; gives the compiled scene for the next frame to reuse.
     fn run(&self, mut loaded: Loaded, previous: Option<&CompiledScene>) -> Result<Arc<CompiledScene>> {
+        // Render products of the stage name files too.
+        check_targets(self.picture.files.iter().map(|file| &file.path).chain(&self.picture.deep))?;
         complete_scene(self.options, &mut loaded, self.picture.product)?;
         if self.is_first && !self.options.quiet {
             list(&loaded.diagnostics, if self.options.stage.verbose { usize::MAX } else { MOST_WARNINGS });
@@ -375,9 +387,8 @@ impl Job<'_> {
         {
             return result;
         }
-        if let Some(keeper) = &mut keeper {
-            keeper.keep(render.film())?;
-        }
+        // A disk without room for the one may have some for the other.
+        let kept = keeper.as_mut().map_or(Ok(()), |keeper| keeper.keep(render.film()));
         let mut image = render.film().develop();
         if result.is_ok() {
             self.writer.finish(&mut image)?;
@@ -402,7 +413,7 @@ impl Job<'_> {
             // The process ends next, which gives everything back at once; somebody waits.
             std::mem::forget((render, image));
         }
-        result
+        kept.and(result)
     }
 
     /// Writes the picture so far. One that cannot be written does not end the render.
@@ -433,11 +444,11 @@ impl Job<'_> {
             attributes: &attributes(self.options, scene),
         };
         let paths: Vec<PathBuf> = self.picture.files.iter().map(|file| file.path.clone()).collect();
-        for path in &self.picture.deep {
-            self.writer.write_deep(path, image, &notes, self.options.quiet || snapshot)?;
-        }
+        let deep = |path: &PathBuf| self.writer.write_deep(path, image, &notes, self.options.quiet || snapshot);
+        // What can be written is, whatever becomes of the others.
+        let deep = self.picture.deep.iter().map(deep).fold(Ok(()), Result::and);
         name_layers(self.options, image, &scene.settings, variables);
-        write_cropped(self.writer, &paths, image, &notes, self.options)
+        write_cropped(self.writer, &paths, image, &notes, self.options).and(deep)
     }
 
     /// What keeps the render's checkpoint, if there is to be one.
@@ -457,10 +468,10 @@ pub(super) fn write_cropped(writer: &Writer, paths: &[PathBuf], image: &Image, n
     let is_exr = |path: &&PathBuf| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("exr"));
     let (to_crop, others): (Vec<&PathBuf>, Vec<&PathBuf>) = paths.iter().partition(is_exr);
     let owned = |paths: Vec<&PathBuf>| paths.into_iter().cloned().collect::<Vec<_>>();
-    writer.write_all(&owned(others), image, notes, quiet)?;
+    let written = writer.write_all(&owned(others), image, notes, quiet);
     let mut part = image.clone();
     autocrop::crop(&mut part, &options.autocrop)?;
-    writer.write_all(&owned(to_crop), &part, notes, quiet)
+    writer.write_all(&owned(to_crop), &part, notes, quiet).and(written)
 }
 
 /// Asks for the deep picture.

@@ -1,7 +1,7 @@
 //! Measured materials in Python.
 
 use crate::{array::Array, buffer::doubles, error::exception, table};
-use gonio::{Error, output::write_atomically};
+use gonio::{Error, output::write_atomically, scene::read_file};
 use gonio_formats::bsdf::{
     Direction, Grid, HalfVectorTable, Hemispheres, Layout, Measured, Resolution, Sampler, Table,
     gbsdf::{self, Encoding},
@@ -35,7 +35,7 @@ impl MeasuredBsdf {
     #[staticmethod]
     fn from_file(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         let found = py.detach(|| {
-            let bytes = std::fs::read(&path).map_err(|error| Error::io(&path, error))?;
+            let bytes = read_file(&path).map_err(|error| Error::io(&path, error))?;
             read(&bytes, &path.to_string_lossy()).map_err(|error| Error::in_file(&path, &error))
         });
         found.map(Self::of).map_err(exception)

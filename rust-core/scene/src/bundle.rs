@@ -7,11 +7,12 @@ use super::{Scene, TextureSource, Tile, blob};
 use crate::{
     atomic::write_atomically,
     digest::Digest,
+    regular::read_file,
     {Error, Result},
 };
 use gonio_image::texture::{find_tiles, is_udim};
 use serde_json::Value;
-use std::{fs, io::Write, path::Path, path::PathBuf};
+use std::{io::Write, path::Path, path::PathBuf};
 
 const MAGIC: &str = "gonio2\n";
 
@@ -50,10 +51,10 @@ pub fn with_images(scene: &Scene) -> Scene {
         let TextureSource::File(path) = &texture.source else { continue };
         let name = path.to_string_lossy().into_owned();
         if is_udim(&name) {
-            let read = |(number, path): (u32, PathBuf)| Some(Tile { number, bytes: fs::read(path).ok()?.into() });
+            let read = |(number, path): (u32, PathBuf)| Some(Tile { number, bytes: read_file(&path).ok()?.into() });
             let tiles = find_tiles(&name).into_iter().filter_map(read).collect();
             texture.source = TextureSource::Tiles { name, tiles };
-        } else if let Ok(bytes) = fs::read(path) {
+        } else if let Ok(bytes) = read_file(path) {
             texture.source = TextureSource::Encoded { name, bytes: bytes.into() };
         }
     }
@@ -62,7 +63,7 @@ pub fn with_images(scene: &Scene) -> Scene {
 
 /// Loads a scene.
 pub fn load_bundle(path: &Path) -> Result<Scene> {
-    of_bundle(&fs::read(path).map_err(|error| Error::io(path, error))?, path)
+    of_bundle(&read_file(path).map_err(|error| Error::io(path, error))?, path)
 }
 
 /// The scene of a bundle's bytes; `path` stands in messages.

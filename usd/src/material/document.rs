@@ -9,10 +9,11 @@ use crate::material::Library;
 use crate::material::stage_host::standard_library;
 use crate::pxr::{self, Module};
 use gonio::Diagnostic;
-use gonio::scene::Origin;
+use gonio::scene::{Origin, open_file};
 use pyo3::types::{PyCFunction, PyDict, PyTuple};
 use pyo3::{intern, prelude::*};
 use std::collections::HashMap;
+use std::io::Read;
 use std::path::Path;
 use std::sync::Arc;
 use text::{Converted, convert};
@@ -158,9 +159,12 @@ fn stand_in<'py>(py: Python<'py>, file: &Path, origin: &Origin, diagnostics: &mu
 }
 
 fn read(path: &Path) -> Result<String, String> {
-    let length = std::fs::metadata(path).map_err(|error| format!("the MaterialX document cannot be read: {error}"))?.len();
+    let unreadable = |error| format!("the MaterialX document cannot be read: {error}");
+    let mut file = open_file(path).map_err(unreadable)?;
+    let length = file.limit();
     if length > MAX_BYTES {
         return Err(format!("the MaterialX document has {length} bytes, more than {MAX_BYTES}"));
     }
-    std::fs::read_to_string(path).map_err(|error| format!("the MaterialX document cannot be read: {error}"))
+    let mut text = String::new();
+    file.read_to_string(&mut text).map_err(unreadable).map(|_| text)
 }

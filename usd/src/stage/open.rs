@@ -12,6 +12,9 @@ use pyo3::types::PyList;
 use std::path::Path;
 use std::sync::Arc;
 
+/// Bytes of the largest layer whose references are looked at before the stage is opened.
+const MOST_SEARCHED: u64 = 4 << 20;
+
 /// A stage with its layer for skinned points.
 pub(super) struct Prepared<'py> {
     pub(super) stage: Bound<'py, PyAny>,
@@ -56,6 +59,7 @@ fn open_layers<'py>(py: Python<'py>, path: &Path, options: &StageOptions, sessio
     let _limit = MemoryLimit::new(py);
     detach_layers(py, options.detached).map_err(|error| unreadable(py, path, &error))?;
     let root = find_layer(py, path)?;
+    check_references(path, &root).map_err(|error| unreadable(py, path, &error))??;
     if let Some(layer) = &options.session_layer {
         check_file(layer)?;
         let found = find_layer(py, layer)?;
@@ -85,6 +89,21 @@ fn detach_layers(py: Python<'_>, all: bool) -> PyResult<()> {
     let rules = rules.call0()?;
     let rules = if all { rules.call_method0("IncludeAll")? } else { rules };
     layer.call_method1("SetDetachedLayerRules", (rules,)).map(|_| ())
+}
+
+/// Refuses a layer that refers to pipes and devices, which opening the stage would wait for. Large layers are not searched.
+fn check_references(path: &Path, layer: &Bound<'_, PyAny>) -> PyResult<Result<()>> {
+    if std::fs::metadata(path).map_or(true, |found| found.len() > MOST_SEARCHED) {
+        return Ok(Ok(()));
+    }
+    for reference in layer.call_method0("GetCompositionAssetDependencies")?.try_iter()? {
+        let reference = reference?;
+        let place: String = layer.call_method1("ComputeAbsolutePath", (&reference,))?.extract()?;
+        if std::fs::metadata(&place).is_ok_and(|found| !found.is_file() && !found.is_dir()) {
+            return Ok(Err(format_error(path, format!("it refers to {reference}, a pipe or device"))));
+        }
+    }
+    Ok(Ok(()))
 }
 
 fn find_layer<'py>(py: Python<'py>, path: &Path) -> Result<Bound<'py, PyAny>> {
@@ -163,6 +182,9 @@ pub(super) fn check_file(path: &Path) -> Result<()> {
     let metadata = std::fs::metadata(path).map_err(|error| Error::io(path, error))?;
     if metadata.is_dir() {
         return Err(format_error(path, "a folder was found, expected a USD file"));
+    }
+    if !metadata.is_file() {
+        return Err(format_error(path, "a pipe or device was found, expected a USD file"));
     }
     let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase()).unwrap_or_default();
     if !matches!(extension.as_str(), "usd" | "usda" | "usdc" | "usdz") {

@@ -1,6 +1,6 @@
 //! Measured materials as `.gbsdf`, matrices and tensor trees as XML.
 
-use super::{BsdfOptions, ending};
+use super::{BsdfOptions, ending, put};
 use gonio::{Error, Result};
 use gonio_formats::bsdf::{
     Direction, Grid, Measured,
@@ -21,7 +21,7 @@ pub(super) fn convert(options: &BsdfOptions, measured: &Measured, title: &str, p
             Measured::Tree(tree) => xml::write_tree(tree, title),
             _ => return Err(Error::setting("output", "only matrices and tensor trees are written as XML, expected .gbsdf")),
         };
-        super::write(path, text.as_bytes())?;
+        put(path, text.as_bytes())?;
         return Ok(json!({ "format": "xml" }));
     }
     let encoding = if options.text { Encoding::Text } else { Encoding::Binary };
@@ -35,7 +35,7 @@ pub(super) fn convert(options: &BsdfOptions, measured: &Measured, title: &str, p
             (tables, json!({ "resampled": true, "theta": grid.theta, "phi": grid.phi, "mean_difference": difference }))
         }
     };
-    super::write(path, &gbsdf::write(&tables, title, encoding))?;
+    put(path, &gbsdf::write(&tables, title, encoding))?;
     Ok(report)
 }
 

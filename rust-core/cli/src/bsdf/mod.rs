@@ -8,14 +8,14 @@ mod sample;
 use super::{
     arguments::BsdfOptions,
     drawing,
-    file::{self, check_ending, ending},
+    file::{self, check_ending, check_targets, ending, put},
     print,
 };
-use gonio::{Error, Result, output::write_atomically};
+use gonio::{Error, Result};
 use gonio_formats::bsdf::{Format, Measured, lobe_diagram, lobe_map, read};
 use pyo3::Python;
 use serde_json::Value;
-use std::{io::Write, path::Path, sync::atomic::AtomicBool};
+use std::{path::Path, sync::atomic::AtomicBool};
 
 /// The longest file in bytes: a spectral anisotropic measurement of RGL takes 100 MB.
 const LONGEST: u64 = 2 << 30;
@@ -36,6 +36,7 @@ pub(super) fn bsdf(py: Python<'_>, options: &BsdfOptions, interrupted: &'static 
     ];
     for (option, path, expected) in outputs {
         path.as_deref().map_or(Ok(()), |path| check_ending(option, path, expected))?;
+        check_targets(path)?;
     }
     match (&options.file, &options.sample.sample) {
         // Were they in conflict for the parser, what wants a sample would pass with a file.
@@ -61,10 +62,10 @@ fn told(options: &BsdfOptions, from: &Path, file: &Path, loaded: &Loaded, readin
         description["sample"] = reading;
     }
     if let Some(path) = &options.lobes {
-        write(path, &drawing::encoded(lobe_diagram(&loaded.measured, &name), path)?)?;
+        put(path, &drawing::encoded(lobe_diagram(&loaded.measured, &name), path)?)?;
     }
     if let Some(path) = &options.map {
-        write(path, &drawing::encoded(lobe_map(&loaded.measured, &name), path)?)?;
+        put(path, &drawing::encoded(lobe_map(&loaded.measured, &name), path)?)?;
     }
     if let Some(path) = &options.output {
         description["conversion"] = convert::convert(options, &loaded.measured, &name, path)?;
@@ -72,7 +73,7 @@ fn told(options: &BsdfOptions, from: &Path, file: &Path, loaded: &Loaded, readin
     if options.fit || options.material.is_some() {
         let found = loaded.measured.fit().map_err(|error| Error::in_file(from, &error))?;
         if let Some(path) = &options.material {
-            write(path, fit::as_usda(&found, &name, &fit::asset_path(path, file)?).as_bytes())?;
+            put(path, fit::as_usda(&found, &name, &fit::asset_path(path, file)?).as_bytes())?;
         }
         description["fit"] = fit::as_json(&found);
     }
@@ -92,10 +93,6 @@ fn as_text(description: &Value) -> Vec<String> {
     lines.extend(fit::as_text(&description["fit"]));
     // Texts of a file must not reach into the terminal.
     lines.iter().map(|line| line.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect()).collect()
-}
-
-fn write(path: &Path, bytes: &[u8]) -> Result<()> {
-    write_atomically(path, true, |file| file.write_all(bytes))
 }
 
 fn load(path: &Path) -> Result<Loaded> {

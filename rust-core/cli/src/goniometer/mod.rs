@@ -8,7 +8,7 @@ mod text;
 use super::{
     arguments::{GoniometerOptions, SymmetryName},
     drawing,
-    file::{check_ending, ending},
+    file::{check_ending, check_targets, ending, put},
     list, print,
     progress::Reporter,
     render::{MOST_WARNINGS, stage_options},
@@ -17,7 +17,6 @@ use super::{
 use gonio::{
     Diagnostic, Error, Result,
     goniometer::{Angles, Frame, Options, Progress, Reading, Stop, measure},
-    output::write_atomically,
     scene::{Origin, Scene},
 };
 use gonio_formats::photometry::{
@@ -29,8 +28,6 @@ use gonio_simd::Execution;
 use gonio_usd::{SampleTime, Stage};
 use pyo3::prelude::*;
 use std::{
-    io::Write,
-    path::Path,
     sync::atomic::{AtomicBool, Ordering},
     time::Duration,
 };
@@ -54,12 +51,13 @@ pub(super) fn goniometer(py: Python<'_>, options: &GoniometerOptions, interrupte
     py.detach(|| run(options, &loaded.scene, loaded.diagnostics, &what, interrupted))
 }
 
-/// Refuses files of other kinds before anything is traced.
+/// Refuses files of other kinds, and those that cannot be written, before anything is traced.
 fn check_files(options: &GoniometerOptions) -> Result<()> {
     options.output.iter().try_for_each(|path| check_ending("output", path, &["ldt", "ies", "xml"]))?;
     options.polar.iter().try_for_each(|path| check_ending("polar", path, drawing::ENDINGS))?;
     let tables = [("csv", &options.csv), ("screen-csv", &options.screen_csv)];
-    tables.into_iter().try_for_each(|(option, path)| path.iter().try_for_each(|path| check_ending(option, path, &["csv"])))
+    tables.into_iter().try_for_each(|(option, path)| path.iter().try_for_each(|path| check_ending(option, path, &["csv"])))?;
+    check_targets(options.output.iter().chain(&options.polar).chain(&options.csv).chain(&options.screen_csv))
 }
 
 /// What is to be measured, from the command line.
@@ -150,7 +148,6 @@ fn reduced(options: &GoniometerOptions, reading: &Reading) -> Result<Reduced> {
 
 /// Writes all files that were asked for.
 fn write(options: &GoniometerOptions, reading: &Reading, reduced: &Reduced) -> Result<()> {
-    let put = |path: &Path, bytes: &[u8]| write_atomically(path, true, |file| file.write_all(bytes));
     for path in &options.output {
         let bytes = match ending(path).as_str() {
             "ldt" => reduced.to_ldt(),

@@ -10,15 +10,14 @@ pub(super) use text::{as_text, aside, opening, shape_name, symmetry_name};
 use super::{
     arguments::{PhotometryOptions, SymmetryName},
     drawing,
-    file::{self, check_ending, ending},
+    file::{self, check_ending, check_targets, ending, put},
     print,
 };
-use gonio::{Error, Result, output::write_atomically};
+use gonio::{Error, Result};
 use gonio_formats::photometry::{
     Goniogram, PolarUnit, SPACINGS, Symmetry, UgrTable, beside, cone_diagram, ies, ldt, polar_diagram, read_with,
 };
 use json::as_json;
-use std::io::Write;
 use std::path::Path;
 
 /// The longest file in bytes: hundreds of times the longest luminaire's.
@@ -29,6 +28,7 @@ pub(super) fn photometry(options: &PhotometryOptions) -> Result<i32> {
     for (option, path, endings) in outputs(options) {
         check_ending(option, path, endings)?;
     }
+    check_targets([&options.polar, &options.cone, &options.convert].into_iter().flatten())?;
     let goniogram = load(options)?;
     let figures = goniogram.figures();
     for (option, path, _) in outputs(options) {
@@ -38,7 +38,7 @@ pub(super) fn photometry(options: &PhotometryOptions) -> Result<i32> {
             _ if ending(path) == "ldt" => ldt::write(&goniogram),
             _ => ies::write(&goniogram),
         };
-        write_atomically(path, true, |file| file.write_all(&bytes))?;
+        put(path, &bytes)?;
     }
     let table = options.ugr_table.then(|| ugr_table(&goniogram, options)).transpose()?;
     if options.json {

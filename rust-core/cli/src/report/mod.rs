@@ -14,10 +14,9 @@ use super::{
     daylight,
     denoise::Denoiser,
     falsecolor,
-    file::{check_ending, make_folder},
+    file::{check_ending, check_targets, print_path, put},
     list,
     measure::{author_grids, evaluated},
-    print,
     progress::Reporter,
     render::{MOST_WARNINGS, stage_options},
     say,
@@ -26,7 +25,7 @@ use gonio::{
     Diagnostic, Error, Result, Severity,
     compile::{CompiledScene, compile},
     measure::{MOST_BOUNCES, Measurements},
-    output::{FalseColourScale, write_atomically},
+    output::FalseColourScale,
     scene::Integrator,
 };
 use gonio_usd::{Loaded, SampleTime, Stage, camera::choose, meter::axes};
@@ -34,10 +33,7 @@ use head::Head;
 use html::Page;
 use pyo3::prelude::*;
 use schedule::Schedule;
-use std::{
-    io::Write,
-    sync::{Arc, atomic::AtomicBool},
-};
+use std::sync::{Arc, atomic::AtomicBool};
 
 /// Writes the page.
 pub(super) fn report(py: Python<'_>, options: &ReportOptions, interrupted: &'static AtomicBool) -> Result<i32> {
@@ -45,7 +41,7 @@ pub(super) fn report(py: Python<'_>, options: &ReportOptions, interrupted: &'sta
     // Said before anything is rendered.
     FalseColourScale::new(options.max_illuminance.unwrap_or(1.0), options.steps, None)?;
     FalseColourScale::new(options.max_luminance.unwrap_or(1.0), options.steps, None)?;
-    make_folder(&options.output)?;
+    check_targets([&options.output])?;
     let mut stage_options = stage_options(&options.stage)?;
     stage_options.time = options.frame.map_or(SampleTime::Start, SampleTime::Code);
     let stage = Stage::open(py, &options.stage.stage, &stage_options)?;
@@ -92,9 +88,9 @@ fn run(
     schedule.write_files(&mut page);
     write_notes(&diagnostics, &mut page);
     let text = page.finish();
-    write_atomically(&options.output, true, |file| file.write_all(text.as_bytes()))?;
+    put(&options.output, text.as_bytes())?;
     if !options.quiet {
-        print(&options.output.display().to_string());
+        print_path(&options.output);
     }
     Ok(0)
 }

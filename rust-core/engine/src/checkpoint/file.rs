@@ -1,16 +1,16 @@
 //! The file: the line `gonio checkpoint 2`, the length of the description, the description in JSON, the film tile by tile and what light paths brought, a digest of all that.
 
 use super::{Checkpoint, Identity};
-use crate::scene::Digesting;
+use crate::scene::{Digesting, open_file};
 use crate::{
     compile::{check_tiles, window},
     error::{Error, Result},
     film::{Film, LEAST_TILE},
-    output::write_through,
+    output::write_beside,
 };
 use std::{
     fs::File,
-    io::{self, BufReader, Read, Write},
+    io::{self, BufReader, Read, Take, Write},
     path::Path,
 };
 
@@ -21,9 +21,7 @@ const MOST_DESCRIPTION: u32 = 1 << 28;
 /// Writes a film as it is at the moment, whole or not at all; what an earlier kill left of one is overwritten.
 pub fn write_checkpoint(path: &Path, identity: &Identity, film: &Film) -> Result<()> {
     let description = serde_json::to_vec(identity).map_err(|error| Error::io(path, io::Error::other(error)))?;
-    let mut temporary = path.as_os_str().to_owned();
-    temporary.push(".part");
-    write_through(temporary.as_ref(), path, true, |file| {
+    write_beside(path, ".part", true, |file| {
         let mut out = Digesting::new(file);
         out.write_all(MAGIC)?;
         out.write_all(&(description.len() as u32).to_le_bytes())?;
@@ -67,9 +65,9 @@ impl Checkpoint {
 }
 
 /// A file to read from, and its length in bytes.
-fn open(path: &Path) -> Result<(Digesting<BufReader<File>>, u64)> {
-    let file = File::open(path).map_err(|error| Error::io(path, error))?;
-    let length = file.metadata().map_err(|error| Error::io(path, error))?.len();
+fn open(path: &Path) -> Result<(Digesting<BufReader<Take<File>>>, u64)> {
+    let file = open_file(path).map_err(|error| Error::io(path, error))?;
+    let length = file.limit();
     Ok((Digesting::new(BufReader::with_capacity(1 << 20, file)), length))
 }
 

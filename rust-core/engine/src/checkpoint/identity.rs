@@ -4,13 +4,12 @@ use crate::{
     compile::{picture_view, window},
     error::{Error, Result},
     film::{Besides, PictureView},
-    scene::{Digest, Manifests, Scene, Settings, TextureSource, digest_scene},
+    scene::{Digest, Manifests, Scene, Settings, TextureSource, digest_scene, open_file},
     texture::{find_tiles, is_udim},
 };
 use gonio_simd::Execution;
 use serde::{Deserialize, Serialize};
 use std::{
-    fs::File,
     io::{BufReader, Read},
     path::{Path, PathBuf},
     sync::Arc,
@@ -120,7 +119,7 @@ fn files(path: &Path) -> Vec<PathBuf> {
 
 /// Adds a file's bytes; one that cannot be read adds what could be, as the picture is made without it.
 fn add_file(digest: &mut Digest, path: &Path) {
-    let Ok(mut file) = File::open(path).map(BufReader::new) else { return };
+    let Ok(mut file) = open_file(path).map(BufReader::new) else { return };
     let mut bytes = vec![0; 1 << 16];
     while let Ok(count) = file.read(&mut bytes)
         && count > 0

@@ -5,7 +5,7 @@ use crate::{
     colour::{Gamut, Primaries, apply, inverse},
     error::{Error, Result},
     film::{Image, Layer, PictureView, channel_names, is_absolute},
-    scene::{Aov, matte_key},
+    scene::{Aov, matte_key, open_file},
 };
 use exr::meta::attribute::Chromaticities;
 use exr::prelude::{
@@ -211,6 +211,7 @@ fn column<const CHANNELS: usize>(values: &[f32], channel: usize) -> Vec<f32> {
 /// The attributes of a file's first part.
 fn attributes(path: &Path) -> Result<LayerAttributes> {
     let failed = |error: exr::error::Error| Error::Format { path: path.to_owned(), line: None, problem: error.to_string() };
+    open_file(path).map_err(|error| Error::io(path, error))?;
     let meta = exr::meta::MetaData::read_from_file(path, false).map_err(failed)?;
     Ok(meta.headers.into_iter().next().map(|header| header.own_attributes).unwrap_or_default())
 }
@@ -240,6 +241,7 @@ pub type Channels = Vec<(String, Vec<f32>)>;
 /// Channels of an EXR file by name, with width and height; for comparing.
 pub fn read_exr(path: &Path) -> Result<(Channels, [usize; 2])> {
     let failed = |error: exr::error::Error| Error::Format { path: path.to_owned(), line: None, problem: error.to_string() };
+    open_file(path).map_err(|error| Error::io(path, error))?;
     let image = exr::prelude::read_all_flat_layers_from_file(path).map_err(failed)?;
     let mut channels = Vec::new();
     let mut size = [0, 0];

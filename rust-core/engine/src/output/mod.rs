@@ -7,7 +7,7 @@ mod false_colour;
 mod picture;
 mod tone_map;
 
-pub use crate::scene::{write_atomically, write_through};
+pub use crate::scene::{Output, check_writable, is_ordinary, write_atomically, write_beside};
 pub use compare::{ChannelDifference, Comparison, compare, difference_picture};
 pub use deep::write_deep_exr;
 pub use exr::{Channels, ExrOptions, exposure_of_exr, matte_notes, read_exr, view_of_exr, write_exr};

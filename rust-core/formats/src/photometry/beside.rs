@@ -1,6 +1,6 @@
 //! Files that a luminaire's file names, which lie beside it.
 
-use std::fs::File;
+use std::fs::{File, metadata};
 use std::io::{Error, Read};
 use std::path::Path;
 
@@ -14,11 +14,13 @@ pub type Beside<'a> = dyn FnMut(&str) -> Result<Vec<u8>, String> + 'a;
 pub fn beside(path: &Path) -> impl FnMut(&str) -> Result<Vec<u8>, String> + '_ {
     |name| {
         let mut bytes = Vec::new();
-        let file = File::open(path.with_file_name(name)).and_then(|file| match file.metadata()?.is_file() {
-            true => Ok(file),
+        let path = path.with_file_name(name);
+        // A pipe would be waited for as soon as it is opened.
+        let file = metadata(&path).and_then(|found| match found.is_file() {
+            true => Ok(File::open(&path)?.take(found.len().min(LONGEST + 1))),
             false => Err(Error::other("not a file")),
         });
-        file.and_then(|file| file.take(LONGEST + 1).read_to_end(&mut bytes)).map_err(|error| error.to_string())?;
+        file.and_then(|mut file| file.read_to_end(&mut bytes)).map_err(|error| error.to_string())?;
         if bytes.len() as u64 > LONGEST { Err(format!("more than {LONGEST} bytes")) } else { Ok(bytes) }
     }
 }

@@ -93,5 +93,8 @@ def _stage(arguments: list[str]) -> str:
 
 
 def _say(line: str) -> None:
-    sys.stderr.write(f"gonio: error: {line}\n")
-    sys.stderr.flush()
+    try:
+        os.write(2, f"gonio: error: {line}\n".encode(errors="backslashreplace"))
+    except OSError:
+        # Nobody listens.
+        pass

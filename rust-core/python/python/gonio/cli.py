@@ -14,16 +14,36 @@ CLOSED_IN_ORDER = ("view", "--dask")
 
 def main() -> int:
     """Run the `gonio` command; return its exit status."""
+    _open_standard_streams()
     status = _watch.watched(sys.argv[1:])
     if status is not None:
         return status
     status = _main(["gonio", *sys.argv[1:]])
     if status == INTERRUPTED or not any(word.startswith(CLOSED_IN_ORDER) for word in sys.argv[1:]):
         # Somebody waits, all files are closed, and taking the modules of pxr apart takes longer than writing a picture.
-        sys.stdout.flush()
-        sys.stderr.flush()
-        os._exit(status)
+        os._exit(status if _flushed() else max(status, 1))
     return status
+
+
+def _open_standard_streams() -> None:
+    """Give closed standard streams a device: the next file that is opened would take the place of one, and get its lines."""
+    for number in range(3):
+        try:
+            os.fstat(number)
+        except OSError:
+            # The lowest free number is this one.
+            os.open(os.devnull, os.O_RDWR)
+
+
+def _flushed() -> bool:
+    """Whether all that Python holds of the streams went out."""
+    try:
+        for stream in (sys.stdout, sys.stderr):
+            if stream is not None:
+                stream.flush()
+    except OSError:
+        return False
+    return True
 
 
 if __name__ == "__main__":
