@@ -5,6 +5,7 @@ use crate::{
     compile::{CompiledScene, compile},
     error::{Error, Result},
     scene::{Instances, PRIMVARS, Scene},
+    threads::in_pool,
     transport::ray_mask,
 };
 use gonio_simd::{Column, Execution, Lanes, Vec3, dispatch};
@@ -83,14 +84,13 @@ impl RayCaster {
             return Err(Error::setting("directions", problem));
         }
         let chunks = origins.par_chunks(BATCH).zip(directions.par_chunks(BATCH));
-        let parts: Vec<SurfaceHits> = chunks
-            .map_init(Room::new, |room, (origins, directions)| {
-                room.rays.fill(origins, directions, self.compiled.tables.origin, farthest);
-                self.trace(room, execution);
-                dispatch!(execution, l => self.look_up(l, room));
-                self.hits(room, origins.len())
-            })
-            .collect();
+        let traced = chunks.map_init(Room::new, |room, (origins, directions)| {
+            room.rays.fill(origins, directions, self.compiled.tables.origin, farthest);
+            self.trace(room, execution);
+            dispatch!(execution, l => self.look_up(l, room));
+            self.hits(room, origins.len())
+        });
+        let parts: Vec<SurfaceHits> = in_pool(|| traced.collect());
         let mut all = SurfaceHits::default();
         parts.into_iter().for_each(|part| all.append(part));
         Ok(all)

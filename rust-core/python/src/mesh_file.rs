@@ -4,7 +4,7 @@ use crate::error::exception;
 use gonio::{
     Error, Result,
     mesh::{PolygonMesh, triangulate},
-    scene::{Mesh, Origin, Primvar, PrimvarInterpolation},
+    scene::{Mesh, Origin, Primvar, PrimvarInterpolation, read_file},
 };
 use gonio_formats::polygons::{self, Polygons};
 use pyo3::prelude::*;
@@ -13,7 +13,7 @@ use std::{path::Path, sync::Arc};
 /// Reads a file; gives the mesh and the names of its materials, one a slot.
 pub(crate) fn read(py: Python<'_>, path: &Path) -> PyResult<(Mesh, Vec<String>)> {
     py.detach(|| {
-        let bytes = std::fs::read(path).map_err(|error| Error::io(path, error))?;
+        let bytes = read_file(path).map_err(|error| Error::io(path, error))?;
         let polygons = polygons::read(&bytes).map_err(|error| Error::in_file(path, &error))?;
         mesh(path, polygons)
     })
