@@ -111,7 +111,8 @@ fn light_image(texture: &Texture, format: texture::DomeFormat, diagnostics: &mut
     if let (ColourSpace::Auto, Stated::Unusable(note)) = (space, &image.stated) {
         diagnostics.push(unusable(texture, note));
     }
-    Ok(light_texture(LatLong::from_image(&image, format, space)?))
+    let image = LatLong::from_image(&image, format, space).map_err(|error| TextureError { path: source.name().into(), ..error })?;
+    Ok(light_texture(image))
 }
 
 fn light_texture(image: LatLong) -> LightTexture {

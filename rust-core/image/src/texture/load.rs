@@ -39,7 +39,8 @@ pub enum Source {
 }
 
 impl Source {
-    pub(crate) fn name(&self) -> String {
+    /// What messages call it.
+    pub fn name(&self) -> String {
         match self {
             Self::Path(path) => path.display().to_string(),
             Self::Bytes { name, .. } | Self::Pixels { name, .. } => name.to_string(),
