@@ -39,7 +39,7 @@ pub struct DeepSums {
 
 impl DeepSums {
     /// Makes room where a deep picture is wanted.
-    pub(crate) fn prepare(&mut self, wanted: bool) {
+    pub fn prepare(&mut self, wanted: bool) {
         let room = if wanted { BATCH } else { 0 };
         self.before.iter_mut().for_each(|column| column.resize(room, 0.0));
     }
@@ -52,7 +52,7 @@ impl DeepSums {
 
     /// Notes the chosen lanes' surfaces.
     #[inline(always)]
-    pub(crate) fn add<L: Lanes>(&mut self, slot: U<L>, depth: F<L>, share: F<L>, chosen: M<L>) {
+    pub fn add<L: Lanes>(&mut self, slot: U<L>, depth: F<L>, share: F<L>, chosen: M<L>) {
         let (slots, depths, shares) = (slot.to_array(), depth.to_array(), share.to_array());
         let mut bits = chosen.bits();
         while bits != 0 {
@@ -63,7 +63,7 @@ impl DeepSums {
     }
 
     /// Shares out what a batch has added to the radiance and the coverage of each slot among what its sample met.
-    pub(crate) fn settle(&mut self, radiance: &[Column; 3], alpha: &Column) {
+    pub fn settle(&mut self, radiance: &[Column; 3], alpha: &Column) {
         if self.before[3].is_empty() {
             return;
         }
@@ -101,57 +101,5 @@ fn share_out(slot: u32, met: &[Met], [red, green, blue, covered]: [f32; 4], part
     parts.extend(met.iter().filter(|met| met.share > 0.0).map(|met| part(met.depth, met.share / all, met.share * kept)));
     if beyond > 0.0 {
         parts.push(part(f32::INFINITY, beyond / all, beyond));
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use gonio_simd::One;
-
-    /// Sums of a batch whose slot 3 has this radiance and coverage.
-    fn settled(sums: &mut DeepSums, radiance: f32, coverage: f32) -> Vec<DeepPart> {
-        let mut columns: [Column; 3] = std::array::from_fn(|_| Column::new(BATCH));
-        let mut alpha = Column::new(BATCH);
-        columns[0][3] = radiance;
-        alpha[3] = coverage;
-        let first = sums.parts.len();
-        sums.settle(&columns, &alpha);
-        sums.parts[first..].to_vec()
-    }
-
-    fn part(depth: f32, coverage: f32, red: f32) -> DeepPart {
-        DeepPart { slot: 3, depth, coverage, light: [red, 0.0, 0.0] }
-    }
-
-    fn meet(sums: &mut DeepSums, depth: f32, share: f32) {
-        sums.add::<One>(U(3), F(depth), F(share), M(true));
-    }
-
-    #[test]
-    fn a_batch_adds_to_what_its_samples_met() {
-        let mut sums = DeepSums::default();
-        sums.prepare(true);
-        meet(&mut sums, 2.0, 1.0);
-        assert_eq!(settled(&mut sums, 5.0, 1.0), [part(2.0, 1.0, 5.0)]);
-        meet(&mut sums, 4.0, 1.0);
-        assert_eq!(settled(&mut sums, 6.0, 2.0), [part(4.0, 1.0, 1.0)]);
-        // Nothing was met: light from infinity, with coverage and without.
-        assert_eq!(settled(&mut sums, 8.0, 2.0), [part(f32::INFINITY, 0.0, 2.0)]);
-        assert_eq!(settled(&mut sums, 9.0, 3.0), [part(f32::INFINITY, 1.0, 1.0)]);
-        assert_eq!(settled(&mut sums, 9.0, 3.0), []);
-    }
-
-    #[test]
-    fn shares_of_a_sample_stand_one_behind_the_other() {
-        let mut sums = DeepSums::default();
-        sums.prepare(true);
-        meet(&mut sums, 4.0, 0.25);
-        meet(&mut sums, 2.0, 0.5);
-        let expected = [part(2.0, 0.5, 4.0), part(4.0, 0.25, 2.0), part(f32::INFINITY, 0.25, 2.0)];
-        assert_eq!(settled(&mut sums, 8.0, 1.0), expected);
-        // Clear glass before nothing takes its coverage back.
-        meet(&mut sums, 1.0, 1.0);
-        assert_eq!(settled(&mut sums, 10.0, 1.25), [part(1.0, 0.25, 2.0)]);
     }
 }

@@ -34,27 +34,10 @@ impl MatteNames {
 
     /// The values of an instance's object and asset.
     #[inline]
-    pub(crate) fn of(&self, row: &InstanceRow) -> [u32; 2] {
+    pub fn of(&self, row: &InstanceRow) -> [u32; 2] {
         let [first, end] = [0, 1].map(|next| self.of_set[row.set as usize + next] as usize);
         let runs = &self.runs[first..end];
         let run = runs.partition_point(|run| run.first <= row.number).checked_sub(1).map(|at| runs[at]);
         run.map_or([0; 2], |run| [run.object, run.asset])
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn placements_of_a_set_have_names_of_their_own() {
-        let run = |first, object| NameRun { first, object, asset: object + 1 };
-        let names = MatteNames::new([vec![run(0, 10)], vec![run(0, 20), run(3, 30)], Vec::new()].into_iter());
-        let of = |set, number| names.of(&InstanceRow { set, number, ..InstanceRow::default() });
-        assert_eq!(
-            [of(0, 0), of(0, 7), of(1, 0), of(1, 2), of(1, 3), of(1, 9)],
-            [[10, 11], [10, 11], [20, 21], [20, 21], [30, 31], [30, 31]]
-        );
-        assert_eq!(of(2, 0), [0; 2]);
     }
 }
