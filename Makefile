@@ -37,7 +37,8 @@ CRATE ?= gonio-tests
 test-quick:
 	cargo test --profile quick --features gonio-simd/own-level --quiet -p $(CRATE)
 
-render: build
+# The quick build has this machine's SIMD level and the scalar one; `make test` builds the wheel with all of them.
+render: dev
 	mkdir -p out
 	$(BIN)/gonio render examples/usd/office.usda -o out/office.exr -o out/office.png --aov color,luminance,illuminance --spp 16 --denoise --exposure 0.7
 	@echo "The picture is out/office.png, denoised; radiance, and luminance (cd/m2) and illuminance (lx) as rendered, are in out/office.exr."
