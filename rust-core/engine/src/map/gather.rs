@@ -367,7 +367,7 @@ fn diagnostics(surfaces: &[MappedSurface], charts: &[Chart]) -> Vec<Diagnostic> 
 /// Says where parts are wider than was asked for.
 fn too_coarse(map: &SurfaceMap, options: &MapOptions) -> Option<Diagnostic> {
     let TexelSize::Metres(asked) = options.texel else { return None };
-    let told = |problem: String| Some(Diagnostic::info(&map.surface.origin, problem));
+    let told = |problem: String| Some(Diagnostic::warning(&map.surface.origin, problem));
     let cells = match &map.chart {
         Chart::Texels(chart) if chart.size().contains(&MOST_SIDE) => {
             return told(format!("texels of {asked} m would be more than {MOST_SIDE} a side; they are larger"));
