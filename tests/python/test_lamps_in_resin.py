@@ -103,13 +103,19 @@ def test_what_fills_a_mesh_dims_lamps_inside():
     assert dimmed / down_from() == pytest.approx(0.5, rel=0.005)
 
 
-def test_a_bubble_around_the_lamp_absorbs_nothing():
+@pytest.mark.parametrize("meshes", [1, 2])
+def test_a_bubble_around_the_lamp_absorbs_nothing(meshes):
     """A shell whose inner side looks inwards: 0.4 m of resin around 0.1 m of air."""
     scene = gonio.Scene()
     points, triangles = ball(64)
-    both = np.concatenate([points * np.float32(0.5), points * np.float32(0.1)])
-    faces = np.concatenate([triangles, triangles[:, ::-1] + len(points)])
-    scene.add_instance(scene.add_mesh(both, faces.astype("i4"), normals=np.concatenate([points, -points])), [resin(scene)])
+    outer, inner = (points * np.float32(0.5), triangles, points), (points * np.float32(0.1), triangles[:, ::-1], -points)
+    shells = [outer, inner]
+    if meshes == 1:
+        shells = [tuple(np.concatenate(both) for both in ((outer[0], inner[0]), (triangles, inner[1] + len(points)), (points, -points)))]
+    material = resin(scene)
+    for corners, faces, normals in shells:
+        mesh = scene.add_mesh(corners, np.ascontiguousarray(faces, "i4"), normals=np.ascontiguousarray(normals))
+        scene.add_instance(mesh, [material])
     scene.add_light("sphere", radius=0.002, lumens=LUMENS)
     assert goniometer(scene).light_output_ratio.value == pytest.approx(0.5**0.8, rel=0.005)
 

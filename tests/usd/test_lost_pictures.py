@@ -1,5 +1,6 @@
 """What was computed is not lost: targets are tried before, devices and links stay, and who is asked to end writes what there is."""
 
+import functools
 import os
 import resource
 import signal
@@ -127,7 +128,9 @@ def test_what_standard_output_loses_is_told(command, room):
 @pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP"])
 def test_who_is_asked_to_end_leaves_picture_and_checkpoint(command, room, tmp_path, name):
     line = [*command, "render", str(room), "-o", str(tmp_path / "a.exr"), "--checkpoint", str(tmp_path / "c"), "--verbose", *map(str, LONG)]
-    with subprocess.Popen(line, stderr=subprocess.PIPE, text=True) as process:
+    # What started the tests may ignore SIGHUP, as nohup does.
+    listens = functools.partial(signal.signal, getattr(signal, name), signal.SIG_DFL)
+    with subprocess.Popen(line, stderr=subprocess.PIPE, text=True, preexec_fn=listens) as process:
         while "compiled in" not in process.stderr.readline():
             assert process.poll() is None
         time.sleep(0.5)

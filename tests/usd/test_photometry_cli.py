@@ -115,13 +115,14 @@ def test_errors_are_one_line_with_place(run, luminaire, tmp_path):
         ((tmp_path / "none.ies",), "none.ies"),
         ((luminaire, "--polar", tmp_path / "polar.jpg"), "the ending is 'jpg', expected svg or png"),
         ((luminaire, "--convert", tmp_path / "out.txt"), "the ending is 'txt', expected ies or ldt"),
-        ((luminaire, "--rotate", "nan"), "expected degrees"),
     ]:
         failed = run("photometry", *arguments)
         assert failed.returncode == 1
         assert expected in failed.stderr
         assert len(failed.stderr.strip().split("\n")) == 1
     assert [entry.name for entry in tmp_path.iterdir()] == ["broken.ldt"]
+    wrong = run("photometry", luminaire, "--rotate", "nan")
+    assert wrong.returncode == 2 and "'nan' was found, expected a number" in wrong.stderr
 
 
 def test_a_tilt_takes_the_files_factors(run, tmp_path):

@@ -8,6 +8,15 @@ use gonio::mesh::PolygonMesh;
 use gonio::mesh::quadrics::{Axis, capsule, cone, cube, cylinder, plane, sphere};
 use gonio::scene::Origin;
 
+/// A shape, and whether its inside is its front.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Oriented {
+    /// The shape.
+    pub quadric: Quadric,
+    /// `orientation` is `leftHanded`.
+    pub left_handed: bool,
+}
+
 /// A shape with its sizes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Quadric {
@@ -65,7 +74,7 @@ pub fn is_quadric(type_name: &str) -> bool {
 }
 
 /// Reads the shape of a prim; `None`, with a report, where a size is not finite.
-pub fn read<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, type_name: &str) -> Option<Quadric> {
+pub fn read<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, type_name: &str) -> Option<Oriented> {
     let mut size = |name: &str, otherwise: f32| {
         let found = context.get_or::<f64>(prim, name, f64::from(otherwise)) as f32;
         if !found.is_finite() {
@@ -90,7 +99,8 @@ pub fn read<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, type_name: &s
         _ => Quadric::Plane { width: size("width", 2.0), length: size("length", 2.0), axis: Axis::Z },
     };
     let quadric = quadric.standing_on(axis(context, prim));
-    quadric.is_finite().then_some(quadric)
+    let left_handed = context.get_authored::<String>(prim, "orientation").is_some_and(|orientation| orientation == "leftHanded");
+    quadric.is_finite().then_some(Oriented { quadric, left_handed })
 }
 
 fn axis<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Axis {
@@ -98,6 +108,24 @@ fn axis<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Axis {
         Some("X") => Axis::X,
         Some("Y") => Axis::Y,
         _ => Axis::Z,
+    }
+}
+
+impl Oriented {
+    /// A key that equal shapes share.
+    pub fn key(&self) -> String {
+        format!("{self:?}")
+    }
+
+    /// The polygons, with exact normals on the front.
+    pub fn source(&self, origin: Origin, complexity: Complexity) -> MeshSource {
+        let mut polygons = self.quadric.polygons(segments(complexity));
+        polygons.left_handed = self.left_handed;
+        if self.left_handed {
+            let normals = polygons.primvars.iter_mut().filter(|primvar| primvar.name == "normals");
+            normals.flat_map(|primvar| &mut primvar.values).for_each(|value| *value = -*value);
+        }
+        MeshSource { origin, polygons, surface: Surface::Polygons, face_slots: None }
     }
 }
 
@@ -118,16 +146,6 @@ impl Quadric {
             Self::Cone { height, radius, .. } => (height + radius).is_finite(),
             Self::Plane { width, length, .. } => (width + length).is_finite(),
         }
-    }
-
-    /// A key that equal shapes share.
-    pub fn key(&self) -> String {
-        format!("{self:?}")
-    }
-
-    /// The polygons, with exact normals.
-    pub fn source(&self, origin: Origin, complexity: Complexity) -> MeshSource {
-        MeshSource { origin, polygons: self.polygons(segments(complexity)), surface: Surface::Polygons, face_slots: None }
     }
 
     fn polygons(&self, segments: u32) -> PolygonMesh {

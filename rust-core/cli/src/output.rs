@@ -17,7 +17,6 @@ use gonio_simd::Execution;
 use std::{
     path::{Path, PathBuf},
     sync::{Mutex, PoisonError},
-    thread::ScopedJoinHandle,
 };
 
 /// What a file says about its picture.

@@ -489,7 +489,7 @@ def glare(
     fov: float | None = None,
     threshold: float = 2000.0,
     radius: float = 0.2,
-    peak: float | None = 50000.0,
+    peak: float | None = ...,
     illuminance: float | None = None,
 ) -> Glare: ...
 

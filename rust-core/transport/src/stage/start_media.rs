@@ -196,20 +196,28 @@ fn without_less_than_nothing<L: Lanes>(l: L, media: &mut SpectrumColumns, count:
     (0..count).step_by(L::COUNT).for_each(|at| media.store(media.load(l, at).max(0.0), at));
 }
 
-/// Solids take each other's place: what the nearest surface encloses of those that hold the place.
+/// Solids take each other's place: what the nearest surface encloses of those that hold the place. A surface that faces inwards bounds a hole, which takes
+/// away the solid about it.
 fn add_innermost(room: &StartRoom, media: &mut SpectrumColumns) {
     let StartRoom { crossings, sides, absorption, .. } = room;
     let mut order: Vec<usize> = (0..crossings.len()).collect();
-    let body = |i: &usize| (crossings[*i].ray, crossings[*i].instance);
-    order.sort_unstable_by(|a, b| body(a).cmp(&body(b)).then(crossings[*a].t.total_cmp(&crossings[*b].t)));
-    let exits = order.chunk_by(|a, b| body(a) == body(b)).filter_map(|of_body| {
+    let (body, t) = (|i: &usize| (crossings[*i].ray, crossings[*i].instance), |i: &usize| crossings[*i].t);
+    order.sort_unstable_by(|a, b| body(a).cmp(&body(b)).then(t(a).total_cmp(&t(b))));
+    // By body: its nearest crossing, how much oftener the ray leaves it than it enters it, and where it leaves it first.
+    let bodies = order.chunk_by(|a, b| body(a) == body(b)).map(|of_body| {
         let left: f32 = of_body.iter().map(|i| -sides[*i]).sum();
-        of_body.iter().copied().find(|i| sides[*i] < 0.0).filter(|_| left > 0.0)
+        (of_body[0], left, of_body.iter().copied().find(|i| sides[*i] < 0.0))
     });
-    let exits: Vec<usize> = exits.collect();
-    for of_ray in exits.chunk_by(|a, b| crossings[*a].ray == crossings[*b].ray) {
-        if let Some(nearest) = of_ray.iter().min_by(|a, b| crossings[**a].t.total_cmp(&crossings[**b].t)) {
-            media.add(crossings[*nearest].ray as usize, absorption, *nearest, 1.0);
+    let mut bodies: Vec<(usize, f32, Option<usize>)> = bodies.collect();
+    bodies.sort_by(|(a, ..), (b, ..)| crossings[*a].ray.cmp(&crossings[*b].ray).then(t(a).total_cmp(&t(b))));
+    for of_ray in bodies.chunk_by(|(a, ..), (b, ..)| crossings[*a].ray == crossings[*b].ray) {
+        let mut holes = 0.0;
+        for (_, left, exit) in of_ray {
+            holes -= left;
+            if let Some(exit) = exit.filter(|_| holes < 0.0) {
+                media.add(crossings[exit].ray as usize, absorption, exit, 1.0);
+                break;
+            }
         }
     }
 }

@@ -111,7 +111,6 @@ impl HalfVectorTable {
             (1..others).for_each(|_| drop(thread::Builder::new().spawn_scoped(scope, work)));
             work();
         });
-        drop(left);
         Lobe::new(nodes[0], nodes[1], weights)
     }
 

@@ -28,6 +28,8 @@ pub struct MeasuredSpread {
 const SURE: f64 = 3.0;
 /// Standard errors that are taken off intensities where the greatest is looked for.
 const CAUTION: f64 = 1.0;
+/// Standard errors by which an intensity counts for more than it is at most.
+const SLACK: f64 = 2.0;
 /// Standard errors by which no noise lets one of many intensities stand out.
 const CLEAR: f64 = 5.0;
 /// Share of an angle above which its standard error tells nothing.
@@ -91,17 +93,22 @@ impl Reduced {
     /// The place of the greatest intensity among those of the goniogram, and the intensity.
     fn peak(&self) -> (usize, WithError) {
         let circle = self.goniogram.symmetry == Symmetry::None;
-        let pole = |gamma: usize| [0.0, 180.0].iter().any(|pole| (self.goniogram.vertical[gamma] - pole).abs() < SAME);
         let (values, errors) = (&self.goniogram.intensities, &self.errors);
-        let place = likely(values, errors, self.goniogram.vertical.len(), circle, pole);
+        let place = likely(values, errors, self.goniogram.vertical.len(), circle, self.is_even());
         (place, WithError { value: values[place], error: errors[place] })
+    }
+
+    /// Whether all steps of γ are the same.
+    fn is_even(&self) -> bool {
+        let steps = || self.goniogram.vertical.windows(2).map(|pair| pair[1] - pair[0]);
+        steps().zip(steps().skip(1)).all(|(one, next)| (one - next).abs() < SAME)
     }
 
     /// The greatest intensity in the plane through C(c).
     fn top(&self, errors: &Goniogram, c: f64) -> WithError {
         let cut = |goniogram: &Goniogram| goniogram.cut(c).into_iter().map(|point| point[1]).collect::<Vec<_>>();
         let (values, errors) = (cut(&self.goniogram), cut(errors));
-        let place = likely(&values, &errors, values.len(), false, |_| false);
+        let place = likely(&values, &errors, values.len(), false, self.is_even());
         WithError { value: values[place], error: errors[place] }
     }
 
@@ -152,26 +159,34 @@ impl Reduced {
     }
 }
 
-/// Where the greatest of noisy values in rows most likely is: chosen by neighbours, whose noise is not its own, so that its value has no bias. What stands
-/// out of its neighbours by more than noise counts itself. Some of the errors are taken off: else the least exact ones would win. Rows close a circle
-/// or are mirrored at both ends, and are one value at a pole.
-fn likely(values: &[f64], errors: &[f64], row: usize, circle: bool, pole: impl Fn(usize) -> bool) -> usize {
+/// Where the greatest of noisy values in rows most likely is: chosen by what neighbours foretell, whose noise is not its own, so that its value has no bias.
+/// What stands out of that by more than noise counts itself, and nothing counts for much more than it is. Some of the errors are taken off: else the least
+/// exact ones would win. Rows close a circle or are mirrored at both ends.
+fn likely(values: &[f64], errors: &[f64], row: usize, circle: bool, even: bool) -> usize {
     let (row, rows) = (row.max(1), values.len() / row.max(1));
-    let near = |at: usize, count: usize| {
-        let [before, after] = [at.checked_sub(1).unwrap_or(1), if at + 1 < count { at + 1 } else { count.saturating_sub(2) }];
-        [before.min(count - 1), at, after]
-    };
     let score = |place: usize| {
         let (r, at) = (place / row, place % row);
-        let beside = if circle { [(r + rows - 1) % rows, r, (r + 1) % rows] } else { near(r, rows) };
-        let others = beside.into_iter().flat_map(|r| near(at, row).map(|at| r * row + at));
-        let others = others.filter(|other| *other != place && !(other % row == at && pole(at)));
-        let [sum, count] = others.fold([0.0; 2], |[sum, count], other| [sum + values[other], count + 1.0]);
-        let around = if count > 0.0 { sum / count } else { values[place] };
-        let stands_out = values[place] - around > CLEAR * errors[place];
-        (if stands_out { values[place] } else { around }) - CAUTION * errors[place]
+        let beside =
+            if circle { [(r + rows - 1) % rows, r, (r + 1) % rows] } else { [mirrored(r, 1, rows, false), r, mirrored(r, 1, rows, true)] };
+        let foretold = beside.map(|r| foretold(&values[r * row..(r + 1) * row], at, even)).iter().sum::<f64>() / 3.0;
+        let (own, error) = (values[place], errors[place]);
+        let stands_out = own - foretold > CLEAR * error;
+        (if stands_out { own } else { foretold.min(own + SLACK * error) }) - CAUTION * error
     };
     greatest((0..rows * row).map(score))
+}
+
+/// A value of a row by those beside it: on a parabola where steps are even, else their mean.
+fn foretold(row: &[f64], at: usize, even: bool) -> f64 {
+    let mean = |step: usize| 0.5 * (row[mirrored(at, step, row.len(), false)] + row[mirrored(at, step, row.len(), true)]);
+    if even && row.len() > 2 { (4.0 * mean(1) - mean(2)) / 3.0 } else { mean(1) }
+}
+
+/// The place some steps before or after another, mirrored at both ends.
+fn mirrored(at: usize, step: usize, count: usize, after: bool) -> usize {
+    let last = count - 1;
+    let place = if after { at + step } else { at.abs_diff(step) };
+    if place > last { (2 * last).saturating_sub(place) } else { place }
 }
 
 /// The place of the greatest number; the first without numbers.
