@@ -102,9 +102,9 @@ impl Node {
     /// Whether the line of a segment meets the box, before the segment's end or a little behind: discs on surfaces lie about there.
     fn is_met(&self, segment: &Segment, inverse: Vector) -> bool {
         let (mut enters, mut leaves) = (f64::NEG_INFINITY, f64::INFINITY);
-        for axis in 0..3 {
+        for (axis, inverse) in inverse.into_iter().enumerate() {
             let origin = f64::from(segment.origin[axis]);
-            let [a, b] = [self.low[axis], self.high[axis]].map(|side| (side - origin) * inverse[axis]);
+            let [a, b] = [self.low[axis], self.high[axis]].map(|side| (side - origin) * inverse);
             // Along a side 0 · ∞ is no number, and does not count.
             enters = enters.max(a.min(b));
             leaves = leaves.min(a.max(b));

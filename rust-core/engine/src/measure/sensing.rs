@@ -53,7 +53,7 @@ pub(super) struct Sensing<'a> {
 impl Sensing<'_> {
     /// What the sensors' own paths find, all samples together.
     pub(super) fn readings(&self, progress: &mut dyn FnMut(&Progress) -> bool) -> Result<Vec<Reading>> {
-        let (image, blocks) = self.trace(self.settings.samples, usize::MAX, None, progress)?;
+        let (image, blocks) = self.trace(self.settings.samples, usize::MAX, None, 0, progress)?;
         Ok(blocks.iter().map(|block| Reading::of_parts(block.parts(&image))).collect())
     }
 
@@ -65,31 +65,30 @@ impl Sensing<'_> {
         progress: &mut dyn FnMut(&Progress) -> bool,
     ) -> Result<Vec<f64>> {
         let samples = self.settings.samples.div_ceil(ROUNDS);
-        let (image, blocks) = self.trace(samples, samples as usize, Some((light_paths, round)), progress)?;
+        let (image, blocks) = self.trace(samples, samples as usize, Some(light_paths), round, progress)?;
         Ok(blocks.iter().map(|block| block.parts(&image).sum::<f64>() / (PARTS * PARTS) as f64).collect())
     }
 
-    /// Traces the sensors' paths, at most so many pixels of each: their picture, and where in it each sensor is. `brought` is what light paths bring, and
-    /// the number of the round.
+    /// Traces the sensors' paths, at most so many pixels of each: their picture, and where in it each sensor is. `brought` is what light paths bring in
+    /// the round of this number.
     fn trace(
         &self,
         samples: u32,
         most_pixels: usize,
-        brought: Option<((LightPaths, Arc<[u32]>), u32)>,
+        brought: Option<(LightPaths, Arc<[u32]>)>,
+        round: u32,
         progress: &mut dyn FnMut(&Progress) -> bool,
     ) -> Result<(Image, Vec<Block>)> {
         let table = SensorTable::new(self.sensors, most_pixels);
         let side = table.side();
         let block = |(number, sensor): (usize, &Sensor)| Block { corner: table.block(number), side, looks: sensor.looks };
         let blocks: Vec<Block> = self.sensors.iter().enumerate().map(block).collect();
-        let round = brought.as_ref().map_or(0, |(_, round)| *round);
         let settings = Settings {
             resolution: table.resolution(),
             samples: samples.div_ceil((side * side) as u32).max(1),
             seed: self.settings.seed ^ round.wrapping_mul(OTHER_SEED),
             ..self.settings.clone()
         };
-        let brought = brought.map(|(brought, _)| brought);
         let mut render = Render::sense(self.scene.clone(), table, &settings, self.execution, brought, round)?;
         while !render.is_finished() {
             // Which tile it was does not matter; waiting for one keeps the loop quiet.
