@@ -67,7 +67,7 @@ fn part(layer: &Layer, width: usize, min: [usize; 2], max: [usize; 2]) -> Vec<f3
 #[cfg(test)]
 mod tests {
     use super::*;
-    use gonio::film::Frame;
+    use gonio::film::{Backdrop, Frame};
 
     #[test]
     fn what_is_empty_around_is_left_out() {
@@ -76,9 +76,18 @@ mod tests {
         values[(2 * 5 + 3) * 4 + 3] = 0.5;
         let layer = Layer { aov: Aov::Color, name: "color".into(), values, channels: 4 };
         let window = Crop { min: [10, 20], max: [15, 24] };
-        let (frame, manifests) = (Frame::default(), Default::default());
-        let image =
-            Image { resolution: [64, 64], window, frame, layers: vec![layer], samples: 1, mean_samples: 1.0, manifests, deep: None };
+        let (frame, backdrop, manifests) = (Frame::default(), Backdrop::default(), Default::default());
+        let image = Image {
+            resolution: [64, 64],
+            window,
+            frame,
+            backdrop,
+            layers: vec![layer],
+            samples: 1,
+            mean_samples: 1.0,
+            manifests,
+            deep: None,
+        };
         let mut whole = image.clone();
         crop(&mut whole, &["C".into()]).expect("there");
         assert_eq!(whole.window, Crop { min: [12, 21], max: [14, 23] });
