@@ -2,7 +2,7 @@
 //!
 //! Front ends and node graphs address places by name through [`NAMES`]; kernels by the constants. Colours take three places.
 
-use super::switches::{Switches, Tint};
+use super::switches::{Closure, Switches, Tint};
 use core::f32::consts::TAU;
 use gonio_simd::{Lanes, Rgb, Spectrum};
 
@@ -27,8 +27,8 @@ const INDEX: [f32; 2] = [1e-3, 1e3];
 const LENGTH: [f32; 2] = [0.0, 1e30];
 /// Of places and directions.
 const PLACE: [f32; 2] = [-1e30, 1e30];
-/// Of light, cd/m²: what sums over pixels and samples can hold.
-pub const LIGHT: [f32; 2] = [0.0, 1e30];
+/// Of light, cd/m²: what sums over pixels and samples can hold. Parts of a colour may take light away.
+pub const LIGHT: [f32; 2] = [-1e30, 1e30];
 /// Without bounds but those of numbers.
 const ABOVE_ZERO: [f32; 2] = [0.0, f32::MAX];
 
@@ -43,6 +43,8 @@ impl Parameter {
         match self.offset {
             SPECULAR_COLOR if switches.tint == Tint::Normal => ABOVE_ZERO,
             BASE_COLOR | SPECULAR_SCALE if measured => ABOVE_ZERO,
+            // What passes straight may be coloured at will, as in Cycles.
+            BASE_COLOR if matches!(switches.closure, Closure::Transparent | Closure::Portal) => ABOVE_ZERO,
             _ => self.range,
         }
     }

@@ -14,7 +14,7 @@ use crate::{
     light::{EmissionSampler, LightKind, LightRecord},
     scene::{Caustics, Integrator, Settings},
 };
-use std::{f64::consts::PI, sync::atomic::AtomicBool};
+use std::{f64::consts::PI, iter::once, sync::atomic::AtomicBool};
 
 /// Batches of light paths that tell it.
 const BATCHES: u64 = 8;
@@ -57,21 +57,34 @@ pub(crate) fn for_meters(scene: &CompiledScene, settings: &Settings, cancel: &At
     if settings.caustics == Caustics::On {
         return Some(light_paths_pay::starts(scene));
     }
-    let brought = light_paths_pay::trace(scene, settings, BATCHES, cancel);
+    let (brought, escaped) = light_paths_pay::trace(scene, settings, BATCHES, cancel);
+    let all = with_escaped(&brought, &escaped);
     let records = scene.kept_lights.records();
-    let triangles = noise(scene, records.iter().zip(&brought).filter(|(record, _)| record.kind == LightKind::Triangle));
-    let starts = (0..).zip(records.iter().zip(&brought)).map(|(light, (record, brought))| {
+    let either = |noise: &dyn Fn(&[Brought]) -> f64| noise(&brought) >= LEAST_NOISE || noise(&all) >= LEAST_NOISE;
+    let is_triangle = |(record, _): &(&LightRecord, &Brought)| record.kind == LightKind::Triangle;
+    let triangles = either(&|brought| noise(scene, records.iter().zip(brought).filter(is_triangle)));
+    let starts = (0..).zip(records).map(|(light, record)| {
         if scene.tables.lights.has_falloff(light) {
             return false;
         }
         match record.kind {
             LightKind::Dome => is_peaked(scene, record),
-            LightKind::Triangle => triangles >= LEAST_NOISE,
+            LightKind::Triangle => triangles,
             _ if is_sizeless(record) && record.opening.is_none() => true,
-            _ => noise(scene, [(record, brought)].into_iter()) >= LEAST_NOISE,
+            _ => either(&|brought| noise(scene, once((record, &brought[light as usize])))),
         }
     });
     Some(starts.collect()).filter(|starts: &Vec<bool>| starts.contains(&true))
+}
+
+/// What arrives of each light, and its part of what leaves the scene by what of all arrives: a meter may stand where no surface is.
+fn with_escaped(brought: &[Brought], escaped: &Brought) -> Vec<Brought> {
+    let arrived: f64 = brought.iter().map(|b| b.straight + b.by_casters).sum();
+    let with_part = |b: &Brought| {
+        let part = if arrived > 0.0 { (b.straight + b.by_casters) / arrived } else { 1.0 / brought.len() as f64 };
+        Brought { straight: b.straight + part * escaped.straight, by_casters: b.by_casters + part * escaped.by_casters }
+    };
+    brought.iter().map(with_part).collect()
 }
 
 /// The variance for lights together, see [`LEAST_NOISE`].

@@ -39,6 +39,12 @@ pub(super) struct Brought {
     pub(super) by_casters: f64,
 }
 
+impl Brought {
+    fn add(&mut self, bounces: u32, flux: f64) {
+        *(if bounces == 0 { &mut self.straight } else { &mut self.by_casters }) += flux;
+    }
+}
+
 /// What decides.
 #[derive(Clone, Copy, Debug, Default)]
 struct Findings {
@@ -81,7 +87,7 @@ pub(crate) fn emission(scene: &CompiledScene, starts: &[bool]) -> EmissionSample
 /// Decides for a scene whose settings leave it open, and says so where light paths are to run; `of_light` gives the scene's lights.
 pub(super) fn decide(compiled: &mut CompiledScene, scene: &Scene, of_light: &[u32], cancel: &AtomicBool) -> Result<()> {
     if scene.settings.caustics == Caustics::Auto && are_possible(compiled, &scene.settings) {
-        let brought = trace(compiled, &scene.settings, BATCHES, cancel);
+        let (brought, _) = trace(compiled, &scene.settings, BATCHES, cancel);
         super::check(cancel)?;
         let found = findings(compiled, &brought);
         compiled.casters.pay =
@@ -117,13 +123,13 @@ fn message(part: f64) -> String {
     format!("mirrors and clear glass send on {part} of its light, which camera paths seldom find; light paths bring it (caustics)")
 }
 
-/// What a few light paths bring, light by light.
-pub(super) fn trace(compiled: &CompiledScene, settings: &Settings, batches: u64, cancel: &AtomicBool) -> Vec<Brought> {
+/// What a few light paths bring, light by light, and what of all of them leaves the scene.
+pub(super) fn trace(compiled: &CompiledScene, settings: &Settings, batches: u64, cancel: &AtomicBool) -> (Vec<Brought>, Brought) {
     let tables = &compiled.tables;
-    let mut tally = Tally(vec![Brought::default(); tables.lights.len()]);
+    let mut tally = Tally { arrived: vec![Brought::default(); tables.lights.len()], escaped: Brought::default() };
     let sampler = emission(compiled, &starts(compiled));
     if sampler.is_empty() {
-        return tally.0;
+        return (tally.arrived, tally.escaped);
     }
     let settings = Settings { seed: SEED, ..settings.clone() };
     let transport = view::transport(compiled, &settings, Execution::detect(), [0.0; 3], [0.0, 0.0, -1.0]);
@@ -135,22 +141,30 @@ pub(super) fn trace(compiled: &CompiledScene, settings: &Settings, batches: u64,
     }
     compiled.workspaces.leave(workspace);
     let share = 1.0 / (batches * LIGHT_BATCH as u64) as f64;
-    tally.0.iter().map(|b| Brought { straight: b.straight * share, by_casters: b.by_casters * share }).collect()
+    let of_path = |b: &Brought| Brought { straight: b.straight * share, by_casters: b.by_casters * share };
+    (tally.arrived.iter().map(of_path).collect(), of_path(&tally.escaped))
 }
 
-/// Adds up what arrives.
-struct Tally(Vec<Brought>);
+/// Adds up what arrives, light by light, and what leaves the scene.
+struct Tally {
+    arrived: Vec<Brought>,
+    escaped: Brought,
+}
 
 impl Receiver for Tally {
     fn arrived(&mut self, arrivals: &Arrivals) {
         for entry in 0..arrivals.count {
             let flux = [0, 1, 2].map(|axis| arrivals.flux[axis][entry]);
-            if let Some(of_light) = self.0.get_mut(arrivals.light[entry] as usize) {
-                *(if arrivals.bounces(entry) == 0 { &mut of_light.straight } else { &mut of_light.by_casters }) += mean(flux);
+            if let Some(of_light) = self.arrived.get_mut(arrivals.light[entry] as usize) {
+                of_light.add(arrivals.bounces(entry), mean(flux));
             }
         }
     }
-    fn escaped(&mut self, _: &Escapes) {}
+    fn escaped(&mut self, escapes: &Escapes) {
+        for entry in 0..escapes.count {
+            self.escaped.add(escapes.bounces[entry], mean([0, 1, 2].map(|axis| escapes.flux[axis][entry])));
+        }
+    }
 }
 
 /// What follows of it.

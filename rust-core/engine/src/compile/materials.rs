@@ -125,7 +125,7 @@ fn constant(value: &[Operand; 4], [low, high]: [f32; 2]) -> Option<[f32; 3]> {
     let mut colour = [0.0; 3];
     for (component, operand) in colour.iter_mut().zip(value) {
         let Operand::Constant(number) = operand else { return None };
-        *component = if number.is_nan() { low } else { number.clamp(low, high) };
+        *component = if number.is_nan() { 0.0f32.clamp(low, high) } else { number.clamp(low, high) };
     }
     Some(colour)
 }

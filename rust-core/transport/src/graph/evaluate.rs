@@ -54,10 +54,11 @@ pub fn evaluate<L: Lanes>(
     }
 }
 
-/// A value within a range; the least where it is no number.
+/// A value within a range; what is nearest to nothing where it is no number.
 #[inline(always)]
 fn held<L: Lanes>(value: F<L>, [low, high]: [f32; 2]) -> F<L> {
-    value.ge(low).select(value.min(high), value.lanes().f(low))
+    let number = value.ge(low) | value.lt(low);
+    number.select(value.max(low).min(high), value.lanes().f(0.0f32.clamp(low, high)))
 }
 
 /// Puts the tangent, the coat's normal and the bent normal of the piece's entry `at` in place.
