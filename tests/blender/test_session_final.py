@@ -28,7 +28,8 @@ class Engine:
         import bpy
 
         render = bpy.context.scene.render
-        return SimpleNamespace(resolution_x=render.resolution_x, resolution_y=render.resolution_y)
+        size = {"resolution_x": render.resolution_x, "resolution_y": render.resolution_y}
+        return SimpleNamespace(**size, stamp_data_add_field=lambda key, text: None)
 
     def test_break(self):
         if self.pressed is None and time.monotonic() - self.begun > self.breaks_after:
