@@ -28,9 +28,7 @@ pub struct MeasuredSpread {
 const SURE: f64 = 3.0;
 /// Standard errors that are taken off intensities where the greatest is looked for.
 const CAUTION: f64 = 1.0;
-/// Standard errors by which an intensity counts for more than it is at most.
-const SLACK: f64 = 2.0;
-/// Standard errors by which no noise lets one of many intensities stand out.
+/// Standard errors by which no noise lets one of many intensities stand out, or lie below what its neighbours foretell.
 const CLEAR: f64 = 5.0;
 /// Share of an angle above which its standard error tells nothing.
 const UNKNOWN: f64 = 0.5;
@@ -171,7 +169,7 @@ fn likely(values: &[f64], errors: &[f64], row: usize, circle: bool, even: bool) 
         let foretold = beside.map(|r| foretold(&values[r * row..(r + 1) * row], at, even)).iter().sum::<f64>() / 3.0;
         let (own, error) = (values[place], errors[place]);
         let stands_out = own - foretold > CLEAR * error;
-        (if stands_out { own } else { foretold.min(own + SLACK * error) }) - CAUTION * error
+        (if stands_out { own } else { foretold.min(own + CLEAR * error) }) - CAUTION * error
     };
     greatest((0..rows * row).map(score))
 }
