@@ -71,7 +71,7 @@ mod tests {
     #[test]
     fn small_values_are_written_where_large_ones_are() {
         // A cell with room for three digits has some for any value.
-        let (sizes, cell) = ([9, 1], 24);
+        let (sizes, cell) = ([9, 1], 28);
         let text = |value: f64| fitting(value, sizes, cell).map(|(text, _)| text);
         assert_eq!(text(500.0).as_deref(), Some("500"));
         assert!(text(0.25).is_some_and(|text| text.starts_with("0.2")));

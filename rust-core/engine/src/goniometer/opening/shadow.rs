@@ -11,6 +11,8 @@ const HALF: f64 = 0.5;
 const DARK: f64 = 0.05;
 /// Share of the whole by which a full rectangle or ellipse may be missed: counts of places are no better.
 const NEAR: f64 = 0.03;
+/// Share of a cell by which a border may be missed.
+const BORDER: f64 = 0.2;
 
 /// What is covered.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -52,7 +54,9 @@ impl Shadow {
         let ellipse = std::f64::consts::FRAC_PI_4;
         let last = grid.along - 1;
         let corners = [0, last, last * grid.along, last * (grid.along + 1)].iter().all(|corner| !lit[*corner]);
-        let elliptic = corners && (share / ellipse - 1.0).abs() < 2.0 * NEAR;
+        // An ellipse's circumference over its area is four over its diameter.
+        let missed = (2.0 * NEAR).max(4.0 * BORDER / grid.along as f64);
+        let elliptic = corners && (share / ellipse - 1.0).abs() < missed;
         let share = if elliptic {
             ellipse
         } else if share > 1.0 - NEAR {
