@@ -126,6 +126,18 @@ fn schedules_alone_know_the_workspace() {
 }
 
 #[test]
+fn what_paths_carry_is_written_out_at_one_place() {
+    for needle in ["PathLanes {", "Vertex {", "PathLanes::<L> {"] {
+        let mut literals = lines_with("rust-core/transport/src", needle);
+        literals.retain(|line| !["/state/paths.rs:", "/state/vertex.rs:", "impl<L: Lanes>"].iter().any(|known| line.contains(known)));
+        assert!(literals.is_empty(), "paths are made by `PathLanes::start`, `Vertex::go_on` and `Vertex::straight_on`: {literals:#?}");
+    }
+    // Whoever spells out a core takes over the rest, lest what is added to it gets lost on the way.
+    let cores = lines_with("rust-core/transport/src", "unguided: l.f(1.0)");
+    assert_eq!(cores.len(), 1, "{cores:#?}");
+}
+
+#[test]
 fn no_build_is_tied_to_one_machine() {
     let config = fs::read_to_string(root().join(".cargo/config.toml")).expect("the build's configuration");
     assert!(!config.lines().any(|line| !line.starts_with('#') && line.contains("native")));

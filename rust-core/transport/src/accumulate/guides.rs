@@ -21,13 +21,13 @@ pub(crate) fn add_guides<L: Lanes>(transport: &Transport, point: &Vertex<L>, lob
     if !transport.passes.guides || transport.path_filter == PathFilter::ExceptSpecular {
         return;
     }
-    let seen = present.and_not(point.all_delta) & is_specular_path(point.flags, point.slot);
+    let seen = present.and_not(point.all_delta) & is_specular_path(point.core.flags, point.core.slot);
     if !seen.any() {
         return;
     }
     let [albedo, normal] = &mut sums.guides;
-    add_rgb(albedo, point.slot, to_film(lobes.albedo() * point.throughput), seen);
-    add_rgb(normal, point.slot, (point.at.frame.z * point.throughput.max_component()).into(), seen);
+    add_rgb(albedo, point.core.slot, to_film(lobes.albedo() * point.core.throughput), seen);
+    add_rgb(normal, point.core.slot, (point.at.frame.z * point.core.throughput.max_component()).into(), seen);
 }
 
 /// Whether a pixel's path has met nothing yet but mirrors and smooth glass.

@@ -27,7 +27,7 @@ pub(crate) fn add_shader_passes<L: Lanes>(
     at: usize,
     sums: &mut TileSums,
 ) {
-    let (l, slot) = (point.slot.lanes(), pixel(point.slot));
+    let (l, slot) = (point.core.slot.lanes(), pixel(point.core.slot));
     let mut place = 0;
     for output in &program.outputs {
         for channel in 0..output.sources.len() {

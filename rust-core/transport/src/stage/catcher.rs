@@ -97,13 +97,13 @@ pub(crate) fn may_sample<L: Lanes>(l: L, tables: &Tables, slot: U<L>, light: U<L
 #[inline(always)]
 pub(crate) fn add_behind<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &mut Vertex<L>, present: M<L>, sums: &mut TileSums) {
     let ChunkContext { l, tables, transport, .. } = *chunk;
-    let halved = (point.flags & flag::CAMERA).ne(0) & !point.slot.lt(WITH_OBJECTS);
-    let caught = present & halved & point.slot.lt(CATCHERS_ONLY);
-    point.flags = halved.select(point.flags & !flag::CAMERA, point.flags);
+    let halved = (point.core.flags & flag::CAMERA).ne(0) & !point.core.slot.lt(WITH_OBJECTS);
+    let caught = present & halved & point.core.slot.lt(CATCHERS_ONLY);
+    point.core.flags = halved.select(point.core.flags & !flag::CAMERA, point.core.flags);
     if !caught.any() {
         return;
     }
-    let pixel = pixel(point.slot);
+    let pixel = pixel(point.core.slot);
     if transport.environment_covers {
         add(&mut sums.alpha, pixel, point.share, caught);
     }
@@ -115,7 +115,7 @@ pub(crate) fn add_behind<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &mut Vert
     }
     if transport.shows_environment {
         let radiance = kernels::eval_escaped(l, tables, None, from, direction, point.pdf, [caught, caught], None, l.u(0));
-        let value = transport.limits.clamped(radiance * point.throughput, point.bounces);
+        let value = transport.limits.clamped(radiance * point.core.throughput, point.bounces);
         add_rgb(behind, pixel, to_film(value), caught & value.is_lit());
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::state::flag;
 use crate::state::light_paths::LightStarts;
+use crate::state::path_core::PathCore;
 use crate::state::paths::{PathLanes, Paths, PreviousLanes};
 use crate::state::rays::RayLanes;
 use crate::state::sample::SampleContext;
@@ -9,7 +10,7 @@ use crate::tables::Tables;
 use gonio_bsdf::parameter::spectrum;
 use gonio_camera::sampler::{BATCH, dimension};
 use gonio_light::{EmissionSampler, EmittedRay};
-use gonio_simd::{F, Lanes, PADDING, Rgb, Spectrum, U, Vec3};
+use gonio_simd::{Lanes, PADDING, Rgb, U, Vec3};
 
 /// Where light paths start.
 #[derive(Clone, Copy, Debug)]
@@ -106,19 +107,9 @@ fn numbers<L: Lanes>(l: L, count: usize, batch: u64, first: u32) -> U<L> {
 #[inline(always)]
 fn started<L: Lanes>(l: L, ray: &EmittedRay<L>, slot: U<L>) -> PathLanes<L> {
     let off = ray.origin.max_abs() * OFFSET;
-    PathLanes {
-        ray: RayLanes { origin: ray.normal.mul_add(off, ray.origin), direction: ray.direction, t_min: l.f(0.0), t_max: l.f(f32::MAX) },
-        passed: None,
-        from: PreviousLanes { position: ray.origin, normal: ray.normal, receiver: l.u(0) },
-        throughput: Spectrum::one(l),
-        pdf: l.f(1.0),
-        width: l.f(0.0),
-        spread: F::from_bits(l.u(0)),
-        slot,
-        // Seen by what sees shadow rays, as all that a light sends.
-        flags: l.u(flag::DELTA | flag::FROM_LIGHT),
-        counts: l.u(0),
-        medium: Spectrum::zero(l),
-        unguided: l.f(1.0),
-    }
+    let from = PreviousLanes { position: ray.origin, normal: ray.normal, receiver: l.u(0) };
+    let ray = RayLanes { origin: ray.normal.mul_add(off, ray.origin), direction: ray.direction, t_min: l.f(0.0), t_max: l.f(f32::MAX) };
+    // Seen by what sees shadow rays, as all that a light sends.
+    let core = PathCore::new(l, slot, l.u(flag::DELTA | flag::FROM_LIGHT));
+    PathLanes::start(ray, core).leaving(from, l.f(1.0))
 }

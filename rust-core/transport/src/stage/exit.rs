@@ -22,7 +22,7 @@ pub(crate) fn light_and_scatter<L: Lanes>(
 ) {
     let ChunkContext { l, tables, sample, .. } = *chunk;
     let lobes = subsurface::exit(l);
-    let index = sample.index(l, point.slot);
+    let index = sample.index(l, point.core.slot);
     let [u_light, u_roulette] = sample.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
     if lit && !tables.lights.is_empty() {
         let [u, v] = sample.sampler.pair(l, index, base + dimension::LIGHT);

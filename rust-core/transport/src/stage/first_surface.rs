@@ -25,7 +25,7 @@ pub(crate) fn without_holdouts<L: Lanes>(
     counted: Option<&mut Deposits>,
 ) -> M<L> {
     let ChunkContext { l, tables, .. } = *chunk;
-    let camera = (point.flags & flag::CAMERA).ne(0);
+    let camera = (point.core.flags & flag::CAMERA).ne(0);
     let hole = if material.holdout {
         l.m(true)
     } else {
@@ -37,7 +37,7 @@ pub(crate) fn without_holdouts<L: Lanes>(
         && !deposits.sums.holes.is_empty()
         && (present & hole).any()
     {
-        add(&mut deposits.sums.holes, pixel(point.slot), point.share, present & hole & catcher::shown(point.slot));
+        add(&mut deposits.sums.holes, pixel(point.core.slot), point.share, present & hole & catcher::shown(point.core.slot));
     }
     present.and_not(hole)
 }
@@ -54,15 +54,15 @@ pub(crate) fn add_first_surface<L: Lanes>(
     deposits: &mut Deposits,
 ) {
     let ChunkContext { l, transport, .. } = *chunk;
-    let seen = present & (point.flags & flag::CAMERA).ne(0) & catcher::shown(point.slot);
+    let seen = present & (point.core.flags & flag::CAMERA).ne(0) & catcher::shown(point.core.slot);
     if !seen.any() {
         return;
     }
     let eye = Vec3::splat(l, transport.eye);
     let surface = FirstSurface {
-        slot: pixel(point.slot),
+        slot: pixel(point.core.slot),
         share: point.share,
-        covers: catcher::covers(point.slot),
+        covers: catcher::covers(point.core.slot),
         look: if transport.passes.surface { Some(look(chunk, point, lobes, eye)) } else { None },
         numbers: if transport.passes.numbers { Some(numbers(chunk, material, point, at)) } else { None },
         #[allow(clippy::manual_map, reason = "a closure may stay a call outside the level's instructions")]

@@ -83,14 +83,14 @@ impl Integrator for LightIntegrator<'_> {
         _deposits: &mut Deposits,
     ) {
         let ChunkContext { l, transport, sample: context, .. } = *chunk;
-        let clear = l.gather(&queues.light_paths.starts.clear, point.slot);
+        let clear = l.gather(&queues.light_paths.starts.clear, point.core.slot);
         point.alive &= point.bounces.ne(0) | l.gather(&chunk.hits.t, point.path).ge(clear);
         if !chunk.tables.links.receivers.is_empty() {
             // What a light does not light stays dark where its light arrives first.
-            let light = l.gather_integers(&queues.light_paths.starts.light, point.slot);
+            let light = l.gather_integers(&queues.light_paths.starts.light, point.core.slot);
             point.alive &= point.bounces.ne(0) | chunk.tables.lights.sees(l, point.at.receiver, light);
         }
-        let index = context.index(l, point.slot);
+        let index = context.index(l, point.core.slot);
         let base = context.dimension(0);
         let [u_lobe, u_opacity] = context.sampler.pair(l, index, base + dimension::LOBE);
         let present = without_cut_outs(chunk, material, point, lobes, u_opacity, &mut queues.next);
@@ -114,7 +114,7 @@ impl Integrator for LightIntegrator<'_> {
         let whole = !self.wanted.specular_only && self.wanted.picture.is_none();
         let light = LightHits { hits, geometric: point.at.frame.to_local(point.at.geometric), whole };
         let mut room = Lobes::empty(l);
-        let going_on = present & point.bounces.lt(transport.limits.max_bounces + 1) & transport.limits.allow(point.counts);
+        let going_on = present & point.bounces.lt(transport.limits.max_bounces + 1) & transport.limits.allow(point.core.counts);
         if let Some(picture) = &self.wanted.picture {
             let seen = (going_on & non_specular & (point.bounces.ne(0) | l.m(!self.wanted.specular_only))).and_not(hidden(chunk, point));
             if seen.any() && !material.holdout {
@@ -130,7 +130,7 @@ impl Integrator for LightIntegrator<'_> {
         let mut factor = kernels::flux_factor(l, &material.surface, &light, lobes, &sample, &mut room);
         if chunk.tables.lights.has_factors() {
             let kind = sample.diffuse.select(l.u(0), sample.transmitted.select(l.u(2), l.u(1)));
-            let light = l.gather_integers(&queues.light_paths.starts.light, point.slot);
+            let light = l.gather_integers(&queues.light_paths.starts.light, point.core.slot);
             let own = chunk.tables.lights.scattered_factor(l, light, kind);
             let own = (point.bounces.eq(0) & !sample.straight).select(own, l.f(1.0));
             goes = goes.and_not(own.eq(0.0));
@@ -165,7 +165,7 @@ fn hidden<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>) -> M<L> {
 #[inline(always)]
 fn goes_on<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, (bright, sample): (&Bright, &BsdfSample<L>), chosen: M<L>) -> M<L> {
     // Beyond its first surface that is not specular a path is on its way.
-    let under_way = (point.flags & flag::SEEN_DIRECTLY).ne(0);
+    let under_way = (point.core.flags & flag::SEEN_DIRECTLY).ne(0);
     // Camera paths find what enters a surface first.
     let first = chosen.and_not(under_way | sample.entered);
     let [straight, caustic] = [first & point.bounces.eq(0), first & point.bounces.ne(0)];
@@ -190,9 +190,9 @@ fn arrive<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, present: M<L
         side: l.load(&surface.side, at),
         position: point.at.position,
         direction: -point.wo,
-        flux: to_film(starts.carried(l, point.slot, point.throughput)),
-        flags: point.flags,
-        light: l.gather_integers(&starts.light, point.slot),
+        flux: to_film(starts.carried(l, point.core.slot, point.core.throughput)),
+        flags: point.core.flags,
+        light: l.gather_integers(&starts.light, point.core.slot),
     };
     queues.light_paths.arrivals.append(&hit, present);
 }
@@ -211,7 +211,7 @@ fn connect<'s, L: Lanes>(
     queues: &mut Queues,
 ) {
     let ChunkContext { l, sample: context, .. } = *chunk;
-    let index = context.index(l, point.slot);
+    let index = context.index(l, point.core.slot);
     let base = context.dimension(0);
     let lens = context.sampler.pair(l, index, base + dimension::LIGHT);
     let filter = context.sampler.pair(l, index, base + dimension::MEASURE);
@@ -233,10 +233,10 @@ fn connect<'s, L: Lanes>(
     let (straight, reflected) = (point.bounces.eq(0), local.z.gt(0.0));
     let exact = shares_of(diffuse, scattered, reflected);
     let starts = &queues.light_paths.starts;
-    let light = l.gather_integers(&starts.light, point.slot);
+    let light = l.gather_integers(&starts.light, point.core.slot);
     let scattered =
         if chunk.tables.lights.has_factors() { straight.select(scattered * seen_share(chunk, exact, light), scattered) } else { scattered };
-    let value = starts.carried(l, point.slot, point.throughput) * scattered * seen.importance;
+    let value = starts.carried(l, point.core.slot, point.core.throughput) * scattered * seen.importance;
     let lit = usable & value.is_lit() & value.max_component().is_finite();
     let to_lens = shadow_ray_to(point.at.position, point.at.geometric, point.at.error, to, seen.distance);
     // The first surface that the camera sees scatters all of it: a light pass each, by the kind of its lobes. What comes later camera paths give to
@@ -249,7 +249,7 @@ fn connect<'s, L: Lanes>(
     let ray = RayLanes { origin: to_lens.origin, direction: to_lens.direction, t_min: l.f(0.0), t_max: to_lens.t_max };
     queues.light_paths.connections.rays.append_time(time, lit, chunk.transport.shutter.is_some());
     let medium = volume::start(chunk.tables, point, to);
-    let straight = gone_straight(chunk.tables, chunk.transport, point.counts);
+    let straight = gone_straight(chunk.tables, chunk.transport, point.core.counts);
     let sent = ShadowLanes {
         ray,
         contribution: value,

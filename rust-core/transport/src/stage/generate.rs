@@ -2,7 +2,8 @@
 
 use crate::stage::volume::filling;
 use crate::state::flag;
-use crate::state::paths::{PathLanes, Paths, PreviousLanes};
+use crate::state::path_core::PathCore;
+use crate::state::paths::{PathLanes, Paths};
 use crate::state::rays::RayLanes;
 use gonio_camera::Placement;
 use gonio_camera::sampler::Runs;
@@ -83,18 +84,6 @@ pub(crate) fn generate_at<L: Lanes>(l: L, camera: &CameraTable, places: [&[f32];
 /// The path of a camera ray.
 #[inline(always)]
 fn started<L: Lanes>(l: L, ray: &CameraRay<L>, slot: U<L>, medium: Spectrum<L>) -> PathLanes<L> {
-    PathLanes {
-        ray: RayLanes { origin: ray.origin, direction: ray.direction, t_min: ray.t_min, t_max: ray.t_max },
-        passed: None,
-        from: PreviousLanes { position: ray.origin, normal: ray.direction, receiver: l.u(0) },
-        throughput: Spectrum::one(l),
-        pdf: l.f(1.0),
-        width: ray.width,
-        spread: ray.spread,
-        slot,
-        flags: l.u(flag::CAMERA | flag::DELTA),
-        counts: l.u(0),
-        medium,
-        unguided: l.f(1.0),
-    }
+    let core = PathCore { width: ray.width, spread: ray.spread, medium, ..PathCore::new(l, slot, l.u(flag::CAMERA | flag::DELTA)) };
+    PathLanes::start(RayLanes { origin: ray.origin, direction: ray.direction, t_min: ray.t_min, t_max: ray.t_max }, core)
 }

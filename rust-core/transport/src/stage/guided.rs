@@ -15,7 +15,7 @@ use std::f32::consts::FRAC_1_PI;
 /// What paths carry as it were without guiding, over what they carry: roulette goes by that.
 #[inline(always)]
 pub(crate) fn unguided<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>) -> F<L> {
-    if chunk.transport.guiding.is_some() { chunk.paths.unguided(chunk.l, point.path) } else { point.unguided }
+    if chunk.transport.guiding.is_some() { chunk.paths.unguided(chunk.l, point.path) } else { point.core.unguided }
 }
 
 /// Looks up what the guiding field knows at chosen vertices: the more of the light diffuse lobes scatter, the more it is followed.
@@ -42,7 +42,7 @@ pub(crate) fn sampled_by_all<L: Lanes>(
 ) -> (BsdfSample<L>, Spectrum<L>) {
     let (Some(field), Some(guided)) = (&chunk.transport.guiding, point.guided) else { return sampled(chunk, point, lobes, u) };
     let (sample, ratio) = sampled_by_guiding(chunk, point, lobes, (field, &guided), u);
-    point.unguided *= ratio;
+    point.core.unguided *= ratio;
     let factor = sample.value * sample.pdf.recip();
     (sample, factor)
 }

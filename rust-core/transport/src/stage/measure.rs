@@ -8,6 +8,7 @@ use crate::stage::merge::{Found, irradiance};
 use crate::stage::nee::{Along, gone_straight, send};
 use crate::state::columns::load3;
 use crate::state::flag::{self, event};
+use crate::state::path_core::PathCore;
 use crate::state::paths::{PathLanes, Paths};
 use crate::state::queue::measure_points::MeasurePoints;
 use crate::state::queue::shadow_rays::ShadowRays;
@@ -15,10 +16,9 @@ use crate::state::sample::SampleContext;
 use crate::state::vertex::{CONE_PER_ROUGHNESS, Interaction};
 use crate::tables::Tables;
 use crate::tables::transport::{FirstLight, Transport};
-use gonio_camera::sampler::BATCH;
 use gonio_camera::sampler::dimension;
 use gonio_light::{FixedLightSample, LightSample, SampleWeight};
-use gonio_simd::{F, Frame, Lanes, M, Spectrum, U, Vec3};
+use gonio_simd::{F, Frame, Lanes, M, Vec3};
 use std::{
     f32::consts::{FRAC_1_PI, PI},
     ops::Range,
@@ -41,10 +41,7 @@ pub(crate) struct MeasureContext<'a, L> {
 struct MeasuredPoint<L: Lanes> {
     alive: M<L>,
     at: Interaction<L>,
-    throughput: Spectrum<L>,
-    width: F<L>,
-    slot: U<L>,
-    medium: Spectrum<L>,
+    core: PathCore<L>,
 }
 
 /// Lights some points by the same fixed samples each.
@@ -80,7 +77,7 @@ pub(crate) fn light_and_start<L: Lanes>(
     let mut found = Found::default();
     for place in range.clone().step_by(L::COUNT) {
         let point = load_point(l, place, l.first(range.end - place), chunk.points);
-        let index = context.index(l, point.slot);
+        let index = context.index(l, point.core.slot);
         let base = context.dimension(dimension::MEASURE);
         let [u_light, _] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
         if !tables.lights.is_empty() {
@@ -92,7 +89,7 @@ pub(crate) fn light_and_start<L: Lanes>(
         }
         if let (Some(photons), true) = (&transport.photons, transport.first_light != FirstLight::Discs) {
             let irradiance = irradiance(l, &photons.fine, point.at.position, point.at.geometric, point.alive, &mut found);
-            let light = Contribution::sampled(l.u(0), point.slot, irradiance * point.throughput, l.u(0), None);
+            let light = Contribution::sampled(l.u(0), point.core.slot, irradiance * point.core.throughput, l.u(0), None);
             deposits.deposit(transport, &light, point.alive & irradiance.is_lit());
         }
         let brought = if transport.photons.is_some() { flag::LIGHT_BROUGHT } else { 0 };
@@ -111,10 +108,7 @@ fn load_point<L: Lanes>(l: L, at: usize, alive: M<L>, points: &MeasurePoints) ->
             frame: Frame::from_normal(load3(l, &points.shading_normal, at)),
             receiver: l.load_integers(&points.receiver, at),
         },
-        throughput: points.throughput.load(l, at),
-        width: l.load(&points.width, at),
-        slot: l.load_integers(&points.slot, at) + BATCH as u32,
-        medium: points.medium.load(l, at),
+        core: points.core(l, at),
     }
 }
 
@@ -136,11 +130,11 @@ fn queue_shadow_ray<L: Lanes>(
         return;
     }
     let weight = weight.of(sample, cosine * FRAC_1_PI);
-    let value = sample.radiance * point.throughput * (cosine * weight / sample.pdf);
+    let value = sample.radiance * point.core.throughput * (cosine * weight / sample.pdf);
     let lit = usable & value.is_lit() & value.max_component().is_finite();
     deposits.note_lost(&point.at, point.alive.and_not(lit));
-    let light = Contribution::sampled(sample.light, point.slot, value, chunk.l.u(0), None);
-    let medium = if chunk.tables.any_absorbing { Some(point.medium) } else { None };
+    let light = Contribution::sampled(sample.light, point.core.slot, value, chunk.l.u(0), None);
+    let medium = if chunk.tables.any_absorbing { Some(point.core.medium) } else { None };
     let straight = gone_straight(chunk.tables, chunk.transport, chunk.l.u(0));
     // What is measured is never clamped.
     let along = Along { medium, straight, ceiling: Some(chunk.l.f(f32::MAX)) };
@@ -153,21 +147,14 @@ fn start<L: Lanes>(l: L, point: &MeasuredPoint<L>, u: [F<L>; 2], brought: u32, n
     let direction = point.at.frame.to_world(local).normalize();
     // Light that reaches the shading normal's hemisphere from below the triangle cannot be there.
     let alive = point.alive & local.z.gt(0.0) & point.at.geometric.dot(direction).gt(0.0);
-    let state = PathLanes {
-        ray: point.at.spawn_ray(direction),
-        passed: None,
-        from: point.at.as_previous(),
-        throughput: point.throughput * PI,
-        pdf: local.z * FRAC_1_PI,
-        width: point.width,
+    let core = PathCore {
+        throughput: point.core.throughput * PI,
         spread: l.f(CONE_PER_ROUGHNESS),
-        slot: point.slot,
         flags: l.u(flag::NON_SPECULAR_SEEN | flag::ROUGH | brought | (1 << flag::BOUNCE_SHIFT)),
         counts: l.u(1),
-        medium: point.medium,
-        unguided: l.f(1.0),
+        ..point.core
     };
-    next.append(&state, alive);
+    next.append(&PathLanes::start(point.at.spawn_ray(direction), core).leaving(point.at.as_previous(), local.z * FRAC_1_PI), alive);
 }
 
 /// A direction of the cosine distribution about +z (Malley's method).

@@ -30,7 +30,7 @@ pub(crate) fn merge<L: Lanes>(
 ) {
     let ChunkContext { l, transport, .. } = *chunk;
     // The rest goes to the first surface by light paths.
-    let seen_directly = chosen & (point.flags & flag::SEEN_DIRECTLY).ne(0);
+    let seen_directly = chosen & (point.core.flags & flag::SEEN_DIRECTLY).ne(0);
     let left = if bright.is_empty() || !seen_directly.any() { l.f(1.0) } else { 1.0 - bright.carried_on(point.at.position, seen_directly) };
     let chosen = chosen & left.gt(0.0);
     let most = find(l, map, [point.at.position, point.at.geometric], chosen, found);
@@ -38,17 +38,18 @@ pub(crate) fn merge<L: Lanes>(
         return;
     }
     let scale = left * (1.0 / (PI * map.radius() * map.radius()));
-    let value = transport.limits.clamped(gathered(l, map, point, lobes, found, most, None) * point.throughput * scale, point.bounces + 2);
-    let code = ((point.flags >> flag::FIRST_SHIFT) & 3) + code::INDIRECT;
-    let light = Contribution { slot: point.slot, value, code, shares: None, specular: l.m(false), source: Source::Several };
+    let value =
+        transport.limits.clamped(gathered(l, map, point, lobes, found, most, None) * point.core.throughput * scale, point.bounces + 2);
+    let code = ((point.core.flags >> flag::FIRST_SHIFT) & 3) + code::INDIRECT;
+    let light = Contribution { slot: point.core.slot, value, code, shares: None, specular: l.m(false), source: Source::Several };
     let counted = deposits.deposit(transport, &light, chosen & value.is_lit() & value.max_component().is_finite());
     let groups = &transport.passes.groups;
     if !groups.wanted() || !counted.any() {
         return;
     }
     for number in 0..groups.count as u32 {
-        let part = gathered(l, map, point, lobes, found, most, Some((&groups.of_light, number))) * point.throughput * scale;
-        deposits.sums.groups.add(l.u(number), point.slot, to_film(part), counted & part.is_lit());
+        let part = gathered(l, map, point, lobes, found, most, Some((&groups.of_light, number))) * point.core.throughput * scale;
+        deposits.sums.groups.add(l.u(number), point.core.slot, to_film(part), counted & part.is_lit());
     }
 }
 
@@ -70,7 +71,7 @@ pub(crate) fn irradiance<L: Lanes>(
 /// meet after they were scattered at the first.
 #[inline(always)]
 pub(crate) fn direct_brought<L: Lanes>(chunk: &ChunkContext<'_, L>, map: &BrightPlaces, point: &Vertex<L>, chosen: M<L>) -> M<L> {
-    let chosen = chosen & (point.flags & flag::SEEN_DIRECTLY).ne(0);
+    let chosen = chosen & (point.core.flags & flag::SEEN_DIRECTLY).ne(0);
     if map.is_empty() || !chosen.any() {
         return chunk.l.m(false);
     }
@@ -82,7 +83,7 @@ pub(crate) fn direct_brought<L: Lanes>(chunk: &ChunkContext<'_, L>, map: &Bright
 #[inline(always)]
 pub(crate) fn in_share<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, share: F<L>) -> M<L> {
     let context = chunk.sample;
-    let [_, u] = context.sampler.pair(chunk.l, context.index(chunk.l, point.slot), context.dimension(dimension::CLOSURE));
+    let [_, u] = context.sampler.pair(chunk.l, context.index(chunk.l, point.core.slot), context.dimension(dimension::CLOSURE));
     u.lt(share)
 }
 

@@ -47,7 +47,7 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
     deposits: &mut Deposits,
 ) {
     let ChunkContext { l, tables, transport, .. } = *chunk;
-    let usable = present & sample.pdf.gt(0.0) & sample.radiance.is_lit() & catcher::may_sample(l, tables, point.slot, sample.light);
+    let usable = present & sample.pdf.gt(0.0) & sample.radiance.is_lit() & catcher::may_sample(l, tables, point.core.slot, sample.light);
     let usable = match &transport.light_paths {
         Some(brought) if point.direct_brought.any() => {
             usable.and_not(point.direct_brought & l.gather_integers(brought, sample.light.keep_if(usable)).ne(0))
@@ -71,7 +71,7 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
     // Below the triangle BSDF sampling finds nothing, yet its share is left out: wide lights, which have no hard terminator to hide, stay as dark
     // there as the triangle makes them (as in Cycles).
     let weight = weight.of(sample, pdf);
-    let whole = f * sample.radiance * point.throughput * (weight / sample.pdf);
+    let whole = f * sample.radiance * point.core.throughput * (weight / sample.pdf);
     let mut value = transport.limits.clamped(whole, point.bounces + 1);
     let mut ceiling = None;
     if tables.lights.any_shaded() && transport.limits.clamps_any() {
@@ -81,11 +81,11 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
     }
     let lit = usable & value.is_lit() & value.max_component().is_finite();
     deposits.note_lost(&point.at, present.and_not(lit));
-    let code = with_sample(transport.passes.expressions.as_deref(), code_of_sampled(point.flags), point.flags, !wi.z.gt(0.0));
+    let code = with_sample(transport.passes.expressions.as_deref(), code_of_sampled(point.core.flags), point.core.flags, !wi.z.gt(0.0));
     let shares = if deposits.wants_shares(transport) { Some(shares(l, lobes, point.local_wo, wi, f)) } else { None };
-    let light = Contribution::sampled(sample.light, point.slot, value, code, shares);
+    let light = Contribution::sampled(sample.light, point.core.slot, value, code, shares);
     let medium = volume::start(tables, point, sample.wi);
-    let along = Along { medium, straight: gone_straight(tables, transport, point.counts), ceiling };
+    let along = Along { medium, straight: gone_straight(tables, transport, point.core.counts), ceiling };
     // One call each: rays of both in one place would be copied through memory.
     match &lifted {
         None => send(transport, (&point.at, point.at.spawn_ray_to(sample)), (sample, along), &light, lit, shadows, deposits),

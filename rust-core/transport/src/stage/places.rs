@@ -7,13 +7,14 @@ use crate::stage::covered::{BEFORE, BEHIND, covered_lanes};
 use crate::stage::generate::TileArea;
 use crate::state::flag;
 use crate::state::nearest::NearestHits;
-use crate::state::paths::{PathLanes, Paths, PreviousLanes};
+use crate::state::path_core::PathCore;
+use crate::state::paths::{PathLanes, Paths};
 use crate::state::queue::measure_points::{MeasureLanes, MeasurePoints};
 use crate::state::rays::RayLanes;
 use crate::tables::{Tables, ray_mask};
 use gonio_accel::Hits;
 use gonio_camera::sampler::{CAPACITY, Runs, Sampler, dimension, morton_even};
-use gonio_simd::{Column, F, Lanes, M, Spectrum, U, Vec3, padded};
+use gonio_simd::{Column, F, Lanes, M, U, Vec3, padded};
 
 /// Metres from which a path sees its surface.
 const DISTANCE: f32 = 1.0;
@@ -193,19 +194,17 @@ fn append<L: Lanes>(l: L, tables: &Tables, table: &PlaceTable, place: &PlaceLane
     let PlaceLanes { instance, triangle, uv: [u, v], slot, inside, .. } = *place;
     let hit = tables.geometry.hit_lanes(l, instance, triangle, u, v);
     let point = tables.geometry.surface_point(l, &hit);
-    let width = width(place, &point);
+    // What textures lie in is not known.
+    let flags = covered.select(l.u(flag::COVERED), l.u(0)) | (flag::CAMERA | flag::DELTA);
+    let core = PathCore { width: width(place, &point), ..PathCore::new(l, slot, flags) };
     if table.measures {
         let measured = MeasureLanes {
             position: point.position,
             error: point.error,
             geometric_normal: point.geometric_normal,
             shading_normal: point.shading_normal,
-            throughput: Spectrum::one(l),
-            width,
-            slot,
             receiver: tables.links.receiver(l, instance),
-            // What textures lie in is not known.
-            medium: Spectrum::zero(l),
+            core,
         };
         started.points.append(&measured, inside.and_not(covered));
     }
@@ -214,27 +213,14 @@ fn append<L: Lanes>(l: L, tables: &Tables, table: &PlaceTable, place: &PlaceLane
     }
     let above = towards_eye(l, table.viewpoint, &point);
     let origin = above.mul_add(l.f(DISTANCE), point.position);
-    let state = PathLanes {
-        ray: RayLanes { origin, direction: -above, t_min: l.f(0.0), t_max: l.f(f32::MAX) },
-        passed: None,
-        from: PreviousLanes { position: origin, normal: -above, receiver: l.u(0) },
-        throughput: Spectrum::one(l),
-        pdf: l.f(1.0),
-        width,
-        spread: l.f(0.0),
-        slot,
-        flags: covered.select(l.u(flag::COVERED), l.u(0)) | (flag::CAMERA | flag::DELTA),
-        counts: l.u(0),
-        medium: Spectrum::zero(l),
-        unguided: l.f(1.0),
-    };
+    let ray = RayLanes { origin, direction: -above, t_min: l.f(0.0), t_max: l.f(f32::MAX) };
     let count = started.paths.count;
     instance.append(inside, &mut started.hits.instance, count);
     triangle.append(inside, &mut started.hits.primitive, count);
     u.append(inside, &mut started.hits.u, count);
     v.append(inside, &mut started.hits.v, count);
     l.f(DISTANCE).append(inside, &mut started.hits.t, count);
-    started.paths.append(&state, inside);
+    started.paths.append(&PathLanes::start(ray, core), inside);
 }
 
 /// Unit vectors from places to where they are seen from.

@@ -4,9 +4,10 @@
 
 use crate::state::chunk::ChunkContext;
 use crate::state::flag;
+use crate::state::path_core::PathCore;
 use crate::state::paths::{PathLanes, Paths, PreviousLanes};
 use crate::state::rays::RayLanes;
-use crate::state::vertex::Vertex;
+use crate::state::vertex::{ONE_STRAIGHT, Vertex};
 use gonio_bsdf::Portal;
 use gonio_simd::{F, Lanes, M, Vec3};
 
@@ -23,29 +24,19 @@ pub(crate) fn pass_on<L: Lanes>(
     goes: M<L>,
     next: &mut Paths,
 ) {
-    let throughput = point.throughput * portal.colour;
-    let open = goes & chunk.transport.limits.allow_straight(point.counts) & throughput.is_lit() & throughput.max_component().is_finite();
+    let throughput = point.core.throughput * portal.colour;
+    let open =
+        goes & chunk.transport.limits.allow_straight(point.core.counts) & throughput.is_lit() & throughput.max_component().is_finite();
     if !open.any() {
         return;
     }
     let ray = ray(chunk, point, portal);
     let receiver = chunk.paths.previous(chunk.l, point.path).receiver;
-    let state = PathLanes {
-        ray,
-        passed: None,
-        from: PreviousLanes { position: ray.origin, normal: ray.direction, receiver },
-        throughput,
-        pdf: share,
-        width: point.width,
-        spread: point.spread,
-        slot: point.slot,
-        // Light paths find no way back through it.
-        flags: (point.flags & !flag::LIGHT_BROUGHT) | (flag::DELTA | flag::ROUGH),
-        counts: point.counts + (1 << 24),
-        medium: point.medium,
-        unguided: point.unguided,
-    };
-    next.append(&state, open);
+    // Light paths find no way back through it.
+    let flags = (point.core.flags & !flag::LIGHT_BROUGHT) | (flag::DELTA | flag::ROUGH);
+    let core = PathCore { throughput, flags, counts: point.core.counts + ONE_STRAIGHT, ..point.core };
+    let from = PreviousLanes { position: ray.origin, normal: ray.direction, receiver };
+    next.append(&PathLanes::start(ray, core).leaving(from, share), open);
 }
 
 /// The ray that leaves the portal; from the hit itself it starts off the surface.

@@ -5,10 +5,11 @@ use crate::kernels;
 use crate::stage::straight::straight_on;
 use crate::state::chunk::ChunkContext;
 use crate::state::flag::{self, event};
+use crate::state::path_core::PathCore;
 use crate::state::paths::{PathLanes, Paths};
 use crate::state::queue::walks::{WalkLanes, Walks};
 use crate::state::rays::RayLanes;
-use crate::state::vertex::{CONE_PER_ROUGHNESS, Vertex};
+use crate::state::vertex::{CONE_PER_ROUGHNESS, ONE_STRAIGHT, Vertex};
 use crate::tables::material::{SurfaceMaterial, threshold};
 use gonio_bsdf::{BsdfSample, Lobes, subsurface::Medium};
 use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
@@ -32,7 +33,7 @@ pub(crate) fn without_cut_outs<L: Lanes>(
         return point.alive;
     }
     let passed = point.alive & u.ge(threshold(lobes.opacity(), material.opacity_threshold));
-    pass_straight(chunk, point, passed & chunk.transport.limits.allow_straight(point.counts), next);
+    pass_straight(chunk, point, passed & chunk.transport.limits.allow_straight(point.core.counts), next);
     point.alive.and_not(passed)
 }
 
@@ -42,22 +43,8 @@ fn pass_straight<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, chose
     if !chosen.any() {
         return;
     }
-    let on = straight_on(chunk, point);
-    let state = PathLanes {
-        ray: on.ray,
-        passed: Some(on.passed),
-        from: chunk.paths.previous(chunk.l, point.path),
-        throughput: point.throughput,
-        pdf: point.pdf,
-        width: on.width,
-        spread: point.spread,
-        slot: point.slot,
-        flags: point.flags,
-        counts: point.counts + (1 << 24),
-        medium: if chunk.tables.any_volume { point.behind } else { point.medium },
-        unguided: point.unguided,
-    };
-    next.append(&state, chosen);
+    let before = chunk.paths.previous(chunk.l, point.path);
+    next.append(&point.straight_on(&straight_on(chunk, point), before, chunk.tables.any_volume), chosen);
 }
 
 /// Starts subsurface random walks.
@@ -69,14 +56,10 @@ fn start_walks<L: Lanes>(point: &Vertex<L>, wi: Vec3<L>, throughput: Spectrum<L>
     let t_min = point.at.error / point.at.geometric.dot(wi).abs().max(0.05);
     let walk = WalkLanes {
         ray: RayLanes { origin: point.at.position, direction: wi, t_min, t_max: t_min },
-        throughput,
+        core: PathCore { throughput, ..point.core },
         medium: *medium,
         path: point.path,
         instance: point.instance,
-        slot: point.slot,
-        flags: point.flags,
-        counts: point.counts,
-        width: point.width,
     };
     walks.append(&walk, chosen);
 }
@@ -97,15 +80,15 @@ fn survival<L: Lanes>(chunk: &ChunkContext<'_, L>, throughput: Spectrum<L>, diff
 #[inline(always)]
 fn brought<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, sample: &BsdfSample<L>) -> U<L> {
     let l = chunk.l;
-    let first = point.bounces.eq(0) & (point.flags & flag::ROUGH).eq(0);
-    let here = (point.flags & flag::WALKED).eq(0);
+    let first = point.bounces.eq(0) & (point.core.flags & flag::ROUGH).eq(0);
+    let here = (point.core.flags & flag::WALKED).eq(0);
     let rough = l.u(flag::LIGHT_BROUGHT).keep_if((first | l.m(chunk.transport.photons.is_some())) & here);
     // Light paths that scatter so are on their way to what the camera sees.
-    let ends = first | (point.flags & flag::FROM_LIGHT).ne(0);
+    let ends = first | (point.core.flags & flag::FROM_LIGHT).ne(0);
     let directly = l.u(flag::SEEN_DIRECTLY).keep_if(ends & here.and_not(sample.delta));
-    let kept = point.flags & (flag::FROM_LIGHT | flag::SEEN_DIRECTLY | flag::ROUGH);
+    let kept = point.core.flags & (flag::FROM_LIGHT | flag::SEEN_DIRECTLY | flag::ROUGH);
     let direct = l.u(flag::DIRECT_BROUGHT).keep_if(point.direct_brought.and_not(sample.delta));
-    sample.delta.select(point.flags & flag::LIGHT_BROUGHT, rough | flag::ROUGH) | directly | direct | kept
+    sample.delta.select(point.core.flags & flag::LIGHT_BROUGHT, rough | flag::ROUGH) | directly | direct | kept
 }
 
 /// The flag of paths that the camera sends through clear glass, where that is to be transparent.
@@ -115,7 +98,7 @@ fn clear<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, sample: &Bsdf
     if most < 0.0 {
         return l.u(0);
     }
-    let seen = (point.flags & (flag::CAMERA | flag::CLEAR)).ne(0);
+    let seen = (point.core.flags & (flag::CAMERA | flag::CLEAR)).ne(0);
     let passed = sample.transmitted.and_not(sample.diffuse) & sample.roughness.le(most);
     l.u(flag::CLEAR).keep_if(seen & passed)
 }
@@ -152,6 +135,36 @@ pub(crate) fn sampled<L: Lanes>(
     (sample, factor)
 }
 
+/// The flag of paths that have met what is not specular.
+#[inline(always)]
+fn seen_non_specular<L: Lanes>(l: L, point: &Vertex<L>) -> U<L> {
+    (point.core.flags & flag::NON_SPECULAR_SEEN) | point.all_delta.select(l.u(0), l.u(flag::NON_SPECULAR_SEEN))
+}
+
+/// The flags of paths that have been scattered.
+#[inline(always)]
+fn flags<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, sample: &BsdfSample<L>, non_specular: U<L>) -> U<L> {
+    let l = chunk.l;
+    let delta = sample.delta.select(l.u(flag::DELTA), l.u(0));
+    let kind = sample.diffuse.select(l.u(event::DIFFUSE), sample.transmitted.select(l.u(event::TRANSMISSION), l.u(event::GLOSSY)));
+    let first = point.bounces.eq(0).select(kind << flag::FIRST_SHIFT, point.core.flags & (3 << flag::FIRST_SHIFT));
+    let kept = brought(chunk, point, sample);
+    let scattered = delta
+        | non_specular
+        | kept
+        | clear(chunk, point, sample)
+        | (kind << flag::LAST_SHIFT)
+        | first
+        | ((point.bounces + 1) << flag::BOUNCE_SHIFT);
+    match &chunk.transport.passes.expressions {
+        Some(expressions) => {
+            let event = scattering_of(l, [sample.diffuse, sample.delta, !sample.wi.z.gt(0.0)]);
+            scattered | expressions.step(point.core.flags, event)
+        }
+        None => scattered,
+    }
+}
+
 /// Appends the paths that go on in sampled directions, with `factor` on their throughput, and starts walks under the surface.
 #[inline(always)]
 #[expect(clippy::too_many_arguments, reason = "a vertex, a direction and where the path goes on")]
@@ -175,8 +188,8 @@ pub(crate) fn send_on<L: Lanes>(
         // Fibres scatter about their tangent: no side is the wrong one.
         consistent = l.m(true);
     }
-    let throughput = point.throughput * factor;
-    let passes = sample.straight & chunk.transport.limits.allow_straight(point.counts);
+    let throughput = point.core.throughput * factor;
+    let passes = sample.straight & chunk.transport.limits.allow_straight(point.core.counts);
     let mut alive = ((going_on | (ending & sample.straight)) & consistent).and_not(sample.straight.and_not(passes))
         & sample.pdf.gt(0.0)
         & throughput.is_lit()
@@ -186,36 +199,19 @@ pub(crate) fn send_on<L: Lanes>(
         alive = alive.and_not(sample.entered);
         start_walks(point, wi, throughput, medium, entered, walks);
     }
-    let survival = survival(chunk, throughput * point.unguided, sample.diffuse);
+    let survival = survival(chunk, throughput * point.core.unguided, sample.diffuse);
     alive &= u_roulette.lt(survival);
     let throughput = throughput * survival.recip();
     if !alive.any() {
         return;
     }
-    let delta = sample.delta.select(l.u(flag::DELTA), l.u(0));
-    let non_specular = (point.flags & flag::NON_SPECULAR_SEEN) | point.all_delta.select(l.u(0), l.u(flag::NON_SPECULAR_SEEN));
-    let kind = sample.diffuse.select(l.u(event::DIFFUSE), sample.transmitted.select(l.u(event::TRANSMISSION), l.u(event::GLOSSY)));
-    let first = point.bounces.eq(0).select(kind << flag::FIRST_SHIFT, point.flags & (3 << flag::FIRST_SHIFT));
-    let kept = brought(chunk, point, sample);
-    let scattered = delta
-        | non_specular
-        | kept
-        | clear(chunk, point, sample)
-        | (kind << flag::LAST_SHIFT)
-        | first
-        | ((point.bounces + 1) << flag::BOUNCE_SHIFT);
-    let scattered = match &chunk.transport.passes.expressions {
-        Some(expressions) => {
-            let event = scattering_of(l, [sample.diffuse, sample.delta, !sample.wi.z.gt(0.0)]);
-            scattered | expressions.step(point.flags, event)
-        }
-        None => scattered,
-    };
+    let non_specular = seen_non_specular(l, point);
+    let scattered = flags(chunk, point, sample, non_specular);
     let counted = sample.diffuse.select(l.u(1), sample.transmitted.select(l.u(1 << 16), l.u(1 << 8)));
     // What goes straight through a thin wall is still on its way from the vertex before, so that lights seen through it keep their weights.
     let straight = sample.straight;
     let (mut from, mut pdf) = (point.at.as_previous(), sample.pdf);
-    let (mut ray, mut width, mut passed) = (point.at.spawn_ray(wi), point.width, None);
+    let (mut ray, mut width, mut passed) = (point.at.spawn_ray(wi), point.core.width, None);
     from.normal = point.at.lit_normal(lobes);
     if straight.any() {
         let before = chunk.paths.previous(l, point.path);
@@ -225,19 +221,14 @@ pub(crate) fn send_on<L: Lanes>(
         let on = straight_on(chunk, point);
         (ray, width, passed) = (ray.or(straight, &on.ray), straight.select(on.width, width), Some(on.passed.only(straight)));
     }
-    let state = PathLanes {
-        ray,
-        passed,
-        from,
+    let core = PathCore {
         throughput,
-        pdf,
         width,
-        spread: point.spread + sample.roughness * CONE_PER_ROUGHNESS,
-        slot: point.slot,
-        flags: straight.select(point.flags | non_specular, scattered),
-        counts: point.counts + straight.select(l.u(1 << 24), counted),
-        medium: (if chunk.tables.any_volume { across } else { across.and_not(straight) }).select(point.behind, point.medium),
-        unguided: point.unguided,
+        spread: point.core.spread + sample.roughness * CONE_PER_ROUGHNESS,
+        flags: straight.select(point.core.flags | non_specular, scattered),
+        counts: point.core.counts + straight.select(l.u(ONE_STRAIGHT), counted),
+        medium: point.media_towards(across, straight, chunk.tables.any_volume),
+        ..point.core
     };
-    next.append(&state, alive);
+    next.append(&PathLanes::start(ray, core).leaving(from, pdf).having_passed(passed), alive);
 }

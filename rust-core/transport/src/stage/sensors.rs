@@ -6,13 +6,14 @@
 use crate::stage::generate::TileArea;
 use crate::state::columns::gather3;
 use crate::state::flag;
-use crate::state::paths::{PathLanes, Paths, PreviousLanes};
+use crate::state::path_core::PathCore;
+use crate::state::paths::{PathLanes, Paths};
 use crate::state::queue::measure_points::{MeasureLanes, MeasurePoints};
 use crate::state::rays::RayLanes;
 use gonio_bsdf::parameter::spectrum;
 use gonio_camera::sampler::{Runs, TILE, morton_even};
 use gonio_camera::sampler::{Sampler, dimension};
-use gonio_simd::{Column, Lanes, Rgb, Spectrum};
+use gonio_simd::{Column, Lanes, Rgb};
 
 /// A sensor, rebased world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -128,33 +129,18 @@ pub(crate) fn start_sensors<L: Lanes>(
         let looks = l.gather_integers(&sensors.looks, sensor).ne(0);
         let [r, g, b] = &sensors.medium;
         let medium = spectrum(Rgb::new(l.gather(r, sensor), l.gather(g, sensor), l.gather(b, sensor)));
+        let core = PathCore { medium, ..PathCore::new(l, slot, l.u(flag::CAMERA | flag::DELTA)) };
         let point = MeasureLanes {
             position,
             error: l.gather(&sensors.error, sensor),
             geometric_normal: normal,
             shading_normal: normal,
-            throughput: Spectrum::one(l),
-            width: l.f(0.0),
-            slot,
             // No light is hidden from a meter.
             receiver: l.u(0),
-            medium,
+            core,
         };
         points.append(&point, inside.and_not(looks));
-        let state = PathLanes {
-            ray: RayLanes { origin: position, direction: normal, t_min: l.f(0.0), t_max: l.f(f32::MAX) },
-            passed: None,
-            from: PreviousLanes { position, normal, receiver: l.u(0) },
-            throughput: Spectrum::one(l),
-            pdf: l.f(1.0),
-            width: l.f(0.0),
-            spread: l.f(0.0),
-            slot,
-            flags: l.u(flag::CAMERA | flag::DELTA),
-            counts: l.u(0),
-            medium,
-            unguided: l.f(1.0),
-        };
-        paths.append(&state, inside & looks);
+        let ray = RayLanes { origin: position, direction: normal, t_min: l.f(0.0), t_max: l.f(f32::MAX) };
+        paths.append(&PathLanes::start(ray, core), inside & looks);
     }
 }

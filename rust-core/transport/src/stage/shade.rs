@@ -16,7 +16,6 @@ use crate::stage::volume;
 use crate::state::chunk::ChunkContext;
 use crate::state::columns::load3;
 use crate::state::flag;
-use crate::state::paths::{CarriedLanes, TrackLanes};
 use crate::state::queue::Queues;
 use crate::state::queue::measure_points::{MeasureLanes, MeasurePoints};
 use crate::state::vertex::{Interaction, Vertex};
@@ -70,45 +69,27 @@ fn load_point<L: Lanes>(chunk: &ChunkContext<'_, L>, material: &SurfaceMaterial,
     let shading = load3(l, &surface.shading_normal, at);
     let frame =
         if material.anisotropic { Frame::from_tangent(shading, load3(l, &surface.tangent, at)) } else { Frame::from_normal(shading) };
-    let CarriedLanes { throughput, pdf } = paths.carried(l, path);
-    let TrackLanes { slot, flags, counts, spread } = paths.track(l, path);
     let wo = load3(l, &surface.wo, at);
-    Vertex {
-        alive: l.first(chunk.count - at),
-        path,
-        place: at,
-        at: Interaction {
-            position: load3(l, &surface.position, at),
-            error: l.load(&surface.error, at),
-            geometric: load3(l, &surface.geometric_normal, at),
-            frame,
-            receiver: chunk.tables.links.receiver(l, l.load_integers(&surface.instance, at)),
-        },
-        wo,
-        local_wo: frame.to_local(wo),
-        throughput,
-        flags: flags & !flag::COVERED,
-        counts,
-        slot,
-        instance: l.load_integers(&surface.instance, at),
-        width: l.load(&surface.cone, at),
-        spread,
-        bounces: flags >> flag::BOUNCE_SHIFT,
-        medium: Spectrum::zero(l),
-        behind: Spectrum::zero(l),
-        all_delta: l.m(false),
-        direct_brought: l.m(false),
-        guided: None,
-        unguided: l.f(1.0),
-        pdf,
-        share: pdf,
-    }
+    let instance = l.load_integers(&surface.instance, at);
+    let place = Interaction {
+        position: load3(l, &surface.position, at),
+        error: l.load(&surface.error, at),
+        geometric: load3(l, &surface.geometric_normal, at),
+        frame,
+        receiver: chunk.tables.links.receiver(l, instance),
+    };
+    let (mut core, pdf) = paths.core(l, path);
+    core.flags = core.flags & !flag::COVERED;
+    core.width = l.load(&surface.cone, at);
+    let mut point = Vertex::new(place, [wo, frame.to_local(wo)], core, [path, instance], at, l.first(chunk.count - at));
+    (point.pdf, point.share) = (pdf, pdf);
+    point
 }
 
 /// Where the path came from a surface that scattered it diffusely.
 #[inline(always)]
 fn scattered_diffusely<L: Lanes>(point: &Vertex<L>) -> M<L> {
-    let last = (point.flags >> flag::LAST_SHIFT) & 3;
+    let last = (point.core.flags >> flag::LAST_SHIFT) & 3;
     point.alive & last.eq(flag::event::DIFFUSE) & point.bounces.ne(0)
 }
 
@@ -123,7 +104,7 @@ pub(crate) fn way_numbers<L: Lanes>(
         return None;
     }
     let (l, context) = (chunk.l, &chunk.sample);
-    let (index, first) = (context.index(l, point.slot), context.dimension(dimension::FIBRE));
+    let (index, first) = (context.index(l, point.core.slot), context.dimension(dimension::FIBRE));
     let [enters, mirrors, leaves] = [0, 1, 2].map(
         #[inline(always)]
         |pair| context.sampler.pair(l, index, first + pair),
@@ -164,14 +145,14 @@ fn absorb<L: Lanes>(
     at: usize,
 ) {
     let l = chunk.l;
-    point.medium = chunk.paths.medium.gather(l, point.path);
+    point.core.medium = chunk.paths.medium.gather(l, point.path);
     // What is before the surface that it went straight through last is behind it.
     let distance = l.gather(&chunk.hits.t, point.path) - chunk.paths.rays.passed.distance(l, point.path);
-    point.throughput = point.throughput * (point.medium * -distance).exp();
+    point.core.throughput = point.core.throughput * (point.core.medium * -distance).exp();
     let inside = material.surface.absorption(l, values, at);
     let entering = l.load(&chunk.columns.surface.side, at).gt(0.0);
     point.behind = if chunk.tables.any_volume {
-        volume::beyond(point.medium, inside, material.interior, entering)
+        volume::beyond(point.core.medium, inside, material.interior, entering)
     } else {
         // Leaving a solid leads to the open.
         inside.keep_if(entering)
@@ -193,7 +174,7 @@ pub(crate) fn guide_and_measure<L: Lanes>(
     point.all_delta = all_delta;
     add_guides(transport, point, lobes, present, &mut deposits.sums);
     // Beyond the last bounce a path still adds emission: the BSDF half of MIS, whose NEE half was sampled before.
-    let going_on = present & point.bounces.lt(transport.limits.max_bounces + 1) & transport.limits.allow(point.counts);
+    let going_on = present & point.bounces.lt(transport.limits.max_bounces + 1) & transport.limits.allow(point.core.counts);
     // Nothing comes to where another surface lies.
     let going_on = going_on.and_not(point.at.error.lt(0.0));
     if transport.passes.illuminance {
@@ -202,13 +183,10 @@ pub(crate) fn guide_and_measure<L: Lanes>(
             error: point.at.error,
             geometric_normal: point.at.geometric,
             shading_normal: point.at.frame.z,
-            throughput: point.throughput,
-            width: point.width,
-            slot: point.slot,
             receiver: point.at.receiver,
-            medium: if chunk.tables.any_absorbing { point.medium } else { Spectrum::zero(chunk.l) },
+            core: point.core,
         };
-        points.append(&measured, going_on.and_not(all_delta) & is_specular_path(point.flags, point.slot));
+        points.append(&measured, going_on.and_not(all_delta) & is_specular_path(point.core.flags, point.core.slot));
     }
     [non_specular, going_on]
 }
@@ -274,7 +252,7 @@ fn add_emission<L: Lanes>(
     deposits: &mut Deposits,
 ) {
     let ChunkContext { l, tables, transport, .. } = *chunk;
-    let mut value = emission * point.throughput;
+    let mut value = emission * point.core.throughput;
     let mut present = present;
     if !tables.links.emitters.is_empty() {
         let receiver = chunk.paths.previous(l, point.path).receiver;
@@ -282,7 +260,7 @@ fn add_emission<L: Lanes>(
     }
     if !tables.triangle_lights.is_empty() {
         let first = l.gather_integers(&tables.triangle_lights, point.instance);
-        let sampled = present & first.ne(NONE) & (point.flags & flag::DELTA).eq(0);
+        let sampled = present & first.ne(NONE) & (point.core.flags & flag::DELTA).eq(0);
         if sampled.any() {
             let light = (first + l.load_integers(&chunk.columns.surface.primitive, at)).keep_if(sampled);
             let from = chunk.paths.previous(l, point.path);
@@ -293,7 +271,7 @@ fn add_emission<L: Lanes>(
         if transport.light_paths.is_some() {
             let lights = present & first.ne(NONE);
             let light = (first + l.load_integers(&chunk.columns.surface.primitive, at)).keep_if(lights);
-            present = present.and_not(transport.is_brought(point.flags, light, lights));
+            present = present.and_not(transport.is_brought(point.core.flags, light, lights));
         }
     }
     let value = transport.limits.clamped(value, point.bounces);
@@ -304,11 +282,11 @@ fn add_emission<L: Lanes>(
         Source::Several
     };
     let light = Contribution {
-        slot: point.slot,
+        slot: point.core.slot,
         value,
-        code: with_state(expressions, code_of_found(point.flags, code::EMISSION), point.flags),
+        code: with_state(expressions, code_of_found(point.core.flags, code::EMISSION), point.core.flags),
         shares: None,
-        specular: is_specular_path(point.flags, point.slot),
+        specular: is_specular_path(point.core.flags, point.core.slot),
         source,
     };
     deposits.deposit(transport, &light, present & value.is_lit());

@@ -2,19 +2,10 @@
 
 use crate::state::chunk::ChunkContext;
 use crate::state::columns::gather3;
-use crate::state::passed::PassedLanes;
+use crate::state::passed::{PassedLanes, StraightOn};
 use crate::state::rays::RayLanes;
 use crate::state::vertex::Vertex;
 use gonio_simd::{F, Lanes};
-
-/// A register of rays that go straight on.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct StraightOn<L: Lanes> {
-    pub(crate) ray: RayLanes<L>,
-    /// Of the cone where the rays start.
-    pub(crate) width: F<L>,
-    pub(crate) passed: PassedLanes<L>,
-}
 
 /// The rays of paths beyond what they have met. They stay the rays that they are: started anew off the surface, they would miss what lies on it.
 /// From curves and points, which bend, they do start anew.
@@ -40,5 +31,5 @@ pub(crate) fn straight_on<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<
     }
     let flat = !surface.hit(l, &chunk.tables.geometry, at).smooth.is_smooth();
     let anew = point.at.spawn_ray(-point.wo);
-    StraightOn { ray: anew.or(flat, &on.ray), width: flat.select(on.width, point.width), passed: passed.only(flat) }
+    StraightOn { ray: anew.or(flat, &on.ray), width: flat.select(on.width, point.core.width), passed: passed.only(flat) }
 }

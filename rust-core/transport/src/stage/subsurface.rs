@@ -22,7 +22,7 @@ use crate::tables::transport::Transport;
 use gonio_accel::{Hits, NONE};
 use gonio_bsdf::subsurface::{Flight, LEAST_THROUGHPUT, MAXIMUM_STEPS, REDUCED_FROM};
 use gonio_camera::sampler::dimension;
-use gonio_simd::{F, Frame, Lanes, M, PADDING, Spectrum, U, Vec3, dispatch};
+use gonio_simd::{F, Frame, Lanes, M, PADDING, U, Vec3, dispatch};
 
 /// What the walks of a batch read.
 #[derive(Clone, Copy, Debug)]
@@ -87,8 +87,8 @@ fn sample_flights<L: Lanes>(l: L, sample: &SampleContext<'_>, step: u32, walks: 
             walks.extinction.store(walk.medium.extinction, at);
             walk.medium.anisotropy.store(&mut walks.anisotropy, at);
         }
-        let u = random(l, sample, walk.slot, step_dimension(sample, step));
-        let flight = walk.medium.flight(walk.throughput, u);
+        let u = random(l, sample, walk.core.slot, step_dimension(sample, step));
+        let flight = walk.medium.flight(walk.core.throughput, u);
         flight.distance.store(&mut walks.rays.t_max, at);
         walks.channels.store(flight.channels, at);
     }
@@ -114,7 +114,7 @@ fn weigh_flights<L: Lanes>(l: L, walks: &mut Walks, hits: &Hits) {
         let mut distance = [0.0; PADDING];
         distance[..here].copy_from_slice(&hits.t[at..at + here]);
         let surface = surface_mask(l, hits, at, walks.count);
-        let throughput = walk.medium.arrive(walk.throughput, &flight, l.load(&distance, 0), surface);
+        let throughput = walk.medium.arrive(walk.core.throughput, &flight, l.load(&distance, 0), surface);
         walks.throughput.store(throughput, at);
     }
 }
@@ -186,43 +186,19 @@ fn exit_point<L: Lanes>(chunk: &ChunkContext<'_, L>, at: usize, walks: &Walks) -
     let (l, surface) = (chunk.l, &chunk.columns.surface);
     let walk = l.load_integers(chunk.order, at);
     let normal = load3(l, &surface.shading_normal, at);
+    let instance = l.gather_integers(&walks.instance, walk);
+    let place = Interaction {
+        position: load3(l, &surface.position, at),
+        error: l.load(&surface.error, at),
+        geometric: load3(l, &surface.geometric_normal, at),
+        frame: Frame::from_normal(normal),
+        receiver: chunk.tables.links.receiver(l, instance),
+    };
+    let mut core = walks.core(l, walk, chunk.paths, chunk.tables.any_absorbing);
+    core.spread = l.f(CONE_PER_ROUGHNESS);
     // Light paths bring nothing to where a walk comes out.
-    let flags = l.gather_integers(&walks.flags, walk) | (flag::WALKED | flag::ROUGH);
-    Vertex {
-        alive: l.first(chunk.count - at),
-        path: l.u(0),
-        place: at,
-        at: Interaction {
-            position: load3(l, &surface.position, at),
-            error: l.load(&surface.error, at),
-            geometric: load3(l, &surface.geometric_normal, at),
-            frame: Frame::from_normal(normal),
-            receiver: chunk.tables.links.receiver(l, l.gather_integers(&walks.instance, walk)),
-        },
-        wo: normal,
-        local_wo: Vec3::splat(l, [0.0, 0.0, 1.0]),
-        throughput: walks.throughput.gather(l, walk),
-        flags,
-        counts: l.gather_integers(&walks.counts, walk),
-        slot: l.gather_integers(&walks.slot, walk),
-        instance: l.gather_integers(&walks.instance, walk),
-        width: l.gather(&walks.width, walk),
-        spread: l.f(CONE_PER_ROUGHNESS),
-        bounces: flags >> flag::BOUNCE_SHIFT,
-        // It comes out into what the path came from.
-        medium: if chunk.tables.any_absorbing {
-            chunk.paths.medium.gather(l, l.gather_integers(&walks.path, walk))
-        } else {
-            Spectrum::zero(l)
-        },
-        behind: Spectrum::zero(l),
-        all_delta: l.m(false),
-        direct_brought: l.m(false),
-        guided: None,
-        unguided: l.f(1.0),
-        pdf: l.f(0.0),
-        share: l.f(0.0),
-    }
+    core.flags = core.flags | (flag::WALKED | flag::ROUGH);
+    Vertex::new(place, [normal, Vec3::splat(l, [0.0, 0.0, 1.0])], core, [l.u(0), instance], at, l.first(chunk.count - at))
 }
 
 /// Scatters the walks that are still inside and closes the ranks.
@@ -232,11 +208,11 @@ fn scatter_walks<L: Lanes>(l: L, sample: &SampleContext<'_>, step: u32, walks: &
     walks.count = 0;
     for at in (0..count).step_by(L::COUNT) {
         let mut walk = walks.load(l, at);
-        let lit = walk.throughput.max_component().gt(LEAST_THROUGHPUT) & l.first(count - at);
+        let lit = walk.core.throughput.max_component().gt(LEAST_THROUGHPUT) & l.first(count - at);
         let inside = lit.and_not(surface_mask(l, hits, at, count));
         walk.ray.origin = walk.ray.direction.mul_add(walk.ray.t_max, walk.ray.origin);
         walk.ray.t_min = l.f(0.0);
-        let u = random(l, sample, walk.slot, step_dimension(sample, step) + 1);
+        let u = random(l, sample, walk.core.slot, step_dimension(sample, step) + 1);
         walk.ray.direction = walk.medium.scatter(walk.ray.direction, u);
         // What is appended lies at or before what was just read.
         walks.append(&walk, inside);

@@ -41,7 +41,12 @@ pub(crate) fn left<L: Lanes>(l: L, paths: &Paths, path: U<L>, distance: F<L>) ->
 /// What a ray starts in that leaves a point in a direction.
 #[inline(always)]
 pub(crate) fn start<L: Lanes>(tables: &Tables, point: &Vertex<L>, direction: Vec3<L>) -> Option<Spectrum<L>> {
-    if tables.any_absorbing { Some(point.at.geometric.dot(direction).lt(0.0).select(point.behind, point.medium)) } else { None }
+    let l = point.bounces.lanes();
+    if tables.any_absorbing {
+        Some(point.media_towards(point.at.geometric.dot(direction).lt(0.0), l.m(false), tables.any_volume))
+    } else {
+        None
+    }
 }
 
 /// Begins the sums of all queued shadow rays with what they start in.

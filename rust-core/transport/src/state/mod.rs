@@ -11,6 +11,7 @@ pub(crate) mod material_order;
 pub(crate) mod media;
 pub(crate) mod nearest;
 pub(crate) mod passed;
+pub(crate) mod path_core;
 pub(crate) mod paths;
 pub(crate) mod queue;
 pub(crate) mod rays;

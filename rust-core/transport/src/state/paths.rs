@@ -4,6 +4,7 @@
 
 use crate::state::flag;
 use crate::state::passed::PassedLanes;
+use crate::state::path_core::PathCore;
 use crate::state::rays::{RayLanes, Rays};
 use crate::state::times::SlotTimes;
 use crate::tables::ray_mask;
@@ -23,7 +24,7 @@ pub struct Paths {
     pub(crate) carried: SpectrumItems,
     /// Ray cones: items of directions and widths, see [`ConeLanes`].
     cone: Column,
-    /// Previous vertices: items of points with the bits of classes of receivers, and of normals, see [`PreviousLanes`], with [`PathLanes::unguided`].
+    /// Previous vertices: items of points with the bits of classes of receivers, and of normals, see [`PreviousLanes`], with [`PathCore::unguided`].
     vertex: Column,
     normal: Column,
     /// Items of slots, flags, counts and the bits of spreads, see [`TrackLanes`].
@@ -38,17 +39,36 @@ pub(crate) struct PathLanes<L: Lanes> {
     pub(crate) passed: Option<PassedLanes<L>>,
     /// The vertex that the ray leaves.
     pub(crate) from: PreviousLanes<L>,
-    pub(crate) throughput: Spectrum<L>,
     /// As in [`CarriedLanes`].
     pub(crate) pdf: F<L>,
-    pub(crate) width: F<L>,
-    pub(crate) spread: F<L>,
-    pub(crate) slot: U<L>,
-    pub(crate) flags: U<L>,
-    pub(crate) counts: U<L>,
-    pub(crate) medium: Spectrum<L>,
-    /// Throughput as it were without guiding, over throughput: roulette goes by that.
-    pub(crate) unguided: F<L>,
+    pub(crate) core: PathCore<L>,
+}
+
+impl<L: Lanes> PathLanes<L> {
+    /// Paths that start with a ray.
+    #[inline(always)]
+    pub(crate) fn start(ray: RayLanes<L>, core: PathCore<L>) -> Self {
+        let l = core.unguided.lanes();
+        Self {
+            ray,
+            passed: None,
+            from: PreviousLanes { position: ray.origin, normal: ray.direction, receiver: l.u(0) },
+            pdf: l.f(1.0),
+            core,
+        }
+    }
+
+    /// The same from another vertex, from which they found their directions with a density.
+    #[inline(always)]
+    pub(crate) fn leaving(self, from: PreviousLanes<L>, pdf: F<L>) -> Self {
+        Self { from, pdf, ..self }
+    }
+
+    /// The same, which went straight on through what they have passed, if they did.
+    #[inline(always)]
+    pub(crate) fn having_passed(self, passed: Option<PassedLanes<L>>) -> Self {
+        Self { passed, ..self }
+    }
 }
 
 /// Throughput of paths and the pdf of their directions: what light found along them counts.
@@ -79,12 +99,10 @@ pub(crate) struct PreviousLanes<L: Lanes> {
 /// Where contributions of paths go, and what the paths have met.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TrackLanes<L: Lanes> {
-    /// Where contributions go: the pixel's Morton number, plus `BATCH` for paths that measure illuminance. [`crate::stage::catcher`] adds more.
+    /// As in [`PathCore`].
     pub(crate) slot: U<L>,
     pub(crate) flags: U<L>,
-    /// Bounces so far by kind, a byte each: diffuse, glossy, transmitted, straight through.
     pub(crate) counts: U<L>,
-    /// Growth of the cone a metre.
     pub(crate) spread: F<L>,
 }
 
@@ -120,16 +138,16 @@ impl Paths {
     #[inline(always)]
     pub(crate) fn append<L: Lanes>(&mut self, p: &PathLanes<L>, chosen: M<L>) {
         let (l, n) = (p.pdf.lanes(), self.count);
-        let (direction, from) = (p.ray.direction, &p.from);
+        let (direction, from, core) = (p.ray.direction, &p.from, &p.core);
         self.rays.append(&p.ray, chosen, n);
         self.rays.passed.append(l, p.passed.as_ref(), chosen, [n, self.rays.t_max.len()]);
-        self.medium.append(p.medium, chosen, n);
-        self.carried.append(p.throughput, p.pdf, chosen, n);
-        l.append_quads([direction.x, direction.y, direction.z, p.width], chosen, &mut self.cone, n);
+        self.medium.append(core.medium, chosen, n);
+        self.carried.append(core.throughput, p.pdf, chosen, n);
+        l.append_quads([direction.x, direction.y, direction.z, core.width], chosen, &mut self.cone, n);
         l.append_quads([from.position.x, from.position.y, from.position.z, F::from_bits(from.receiver)], chosen, &mut self.vertex, n);
-        l.append_quads([from.normal.x, from.normal.y, from.normal.z, p.unguided], chosen, &mut self.normal, n);
-        let [slot, flags, counts] = [F::from_bits(p.slot), F::from_bits(p.flags), F::from_bits(p.counts)];
-        l.append_quads([slot, flags, counts, p.spread], chosen, bytemuck::cast_slice_mut(&mut self.track), n);
+        l.append_quads([from.normal.x, from.normal.y, from.normal.z, core.unguided], chosen, &mut self.normal, n);
+        let [slot, flags, counts] = [F::from_bits(core.slot), F::from_bits(core.flags), F::from_bits(core.counts)];
+        l.append_quads([slot, flags, counts, core.spread], chosen, bytemuck::cast_slice_mut(&mut self.track), n);
         self.count += chosen.count();
     }
 
@@ -138,6 +156,14 @@ impl Paths {
     pub(crate) fn carried<L: Lanes>(&self, l: L, path: U<L>) -> CarriedLanes<L> {
         let (throughput, pdf) = self.carried.gather(l, path);
         CarriedLanes { throughput, pdf }
+    }
+
+    /// What some paths carry, but for what is seldom asked: their ray cones' widths are 0, they are in nothing, and unguided. And their pdfs.
+    #[inline(always)]
+    pub(crate) fn core<L: Lanes>(&self, l: L, path: U<L>) -> (PathCore<L>, F<L>) {
+        let CarriedLanes { throughput, pdf } = self.carried(l, path);
+        let TrackLanes { slot, flags, counts, spread } = self.track(l, path);
+        (PathCore { throughput, counts, spread, ..PathCore::new(l, slot, flags) }, pdf)
     }
 
     /// The ray cones of some paths.

@@ -1,7 +1,10 @@
 //! A register of path vertices on surfaces (pbrt's `SurfaceInteraction`).
 
 use crate::geometry::{ShadowSegment, offset_ray_origin, shadow_ray_from, shadow_ray_to};
-use crate::state::paths::PreviousLanes;
+use crate::state::flag;
+use crate::state::passed::StraightOn;
+use crate::state::path_core::PathCore;
+use crate::state::paths::{PathLanes, PreviousLanes};
 use crate::state::rays::RayLanes;
 use crate::tables::guiding::Guided;
 use gonio_bsdf::Lobes;
@@ -10,6 +13,8 @@ use gonio_simd::{F, Frame, Lanes, M, Spectrum, U, Vec3};
 
 /// Roughness widens a path's ray cone by this much, radians: blurred reflections need no fine texture level.
 pub(crate) const CONE_PER_ROUGHNESS: f32 = 0.3;
+/// One way straight through more in [`PathCore::counts`].
+pub(crate) const ONE_STRAIGHT: u32 = 1 << 24;
 
 /// Where on a surface a path is, and how rays leave there (pbrt's `Interaction`).
 #[derive(Clone, Copy, Debug)]
@@ -77,18 +82,11 @@ pub(crate) struct Vertex<L: Lanes> {
     /// Unit direction to the previous vertex: world space, and in the frame of `at`.
     pub(crate) wo: Vec3<L>,
     pub(crate) local_wo: Vec3<L>,
-    pub(crate) throughput: Spectrum<L>,
-    /// As in [`crate::state::paths::TrackLanes`].
-    pub(crate) flags: U<L>,
-    pub(crate) counts: U<L>,
-    pub(crate) slot: U<L>,
+    /// What the path carries, as it arrives.
+    pub(crate) core: PathCore<L>,
     pub(crate) instance: U<L>,
-    /// Ray cone: width here, metres, and growth a metre.
-    pub(crate) width: F<L>,
-    pub(crate) spread: F<L>,
     pub(crate) bounces: U<L>,
-    /// Absorption a metre of what the path is in, and of what is behind the surface.
-    pub(crate) medium: Spectrum<L>,
+    /// Absorption a metre of what is behind the surface; [`PathCore::medium`] is before it.
     pub(crate) behind: Spectrum<L>,
     /// Where all lobes are specular: mirrors or smooth glass.
     pub(crate) all_delta: M<L>,
@@ -98,8 +96,60 @@ pub(crate) struct Vertex<L: Lanes> {
     pub(crate) direct_brought: M<L>,
     /// What the guiding field knows here, where it is followed.
     pub(crate) guided: Option<Guided<L>>,
-    /// Throughput as it were without guiding, over throughput.
-    pub(crate) unguided: F<L>,
     /// Share of a camera ray's sample that is here; of no meaning for other rays.
     pub(crate) share: F<L>,
+}
+
+impl<L: Lanes> Vertex<L> {
+    /// A vertex of a register's first lane at a place of its chunk, about which nothing is known yet but where it is and what the path carries.
+    #[inline(always)]
+    pub(crate) fn new(
+        at: Interaction<L>,
+        [wo, local_wo]: [Vec3<L>; 2],
+        core: PathCore<L>,
+        [path, instance]: [U<L>; 2],
+        place: usize,
+        alive: M<L>,
+    ) -> Self {
+        let l = core.unguided.lanes();
+        Self {
+            alive,
+            path,
+            place,
+            at,
+            wo,
+            local_wo,
+            core,
+            instance,
+            bounces: core.flags >> flag::BOUNCE_SHIFT,
+            behind: Spectrum::zero(l),
+            all_delta: l.m(false),
+            pdf: l.f(0.0),
+            direct_brought: l.m(false),
+            guided: None,
+            share: l.f(0.0),
+        }
+    }
+
+    /// What rays that leave are in: `across` where they go behind the surface, `straight` where nothing bends them. Volumes lie behind what rays pass
+    /// straight, solids behind what bends them alone.
+    #[inline(always)]
+    pub(crate) fn media_towards(&self, across: M<L>, straight: M<L>, any_volume: bool) -> Spectrum<L> {
+        (if any_volume { across } else { across.and_not(straight) }).select(self.behind, self.core.medium)
+    }
+
+    /// The path that leaves here with a ray, whose direction was found with a density, and with what it carries from here.
+    #[inline(always)]
+    pub(crate) fn go_on(&self, ray: RayLanes<L>, pdf: F<L>, core: PathCore<L>) -> PathLanes<L> {
+        PathLanes::start(ray, core).leaving(self.at.as_previous(), pdf)
+    }
+
+    /// The path that goes on as if there were no surface: it is still under way from the vertex before.
+    #[inline(always)]
+    pub(crate) fn straight_on(&self, on: &StraightOn<L>, before: PreviousLanes<L>, any_volume: bool) -> PathLanes<L> {
+        let everywhere = self.alive | !self.alive;
+        let medium = self.media_towards(everywhere, everywhere, any_volume);
+        let core = PathCore { width: on.width, counts: self.core.counts + ONE_STRAIGHT, medium, ..self.core };
+        PathLanes::start(on.ray, core).leaving(before, self.pdf).having_passed(Some(on.passed))
+    }
 }

@@ -50,10 +50,10 @@ impl Integrator for PathIntegrator {
         deposits: &mut Deposits,
     ) {
         let ChunkContext { l, tables, transport, sample: context, .. } = *chunk;
-        let index = context.index(l, point.slot);
+        let index = context.index(l, point.core.slot);
         let base = context.dimension(0);
         let [u_lobe, u_opacity] = context.sampler.pair(l, index, base + dimension::LOBE);
-        point.unguided = unguided(chunk, point);
+        point.core.unguided = unguided(chunk, point);
         let present = without_cut_outs(chunk, material, point, lobes, u_opacity, &mut queues.next);
         let present = add_seen(chunk, material, point, lobes, (present, true), at, deposits);
         if let Some(portal) = lobes.portal() {
@@ -63,7 +63,7 @@ impl Integrator for PathIntegrator {
         let [non_specular, going_on] = guide_and_measure(chunk, point, lobes, present, &mut queues.measure, deposits);
         if let Some(photons) = &transport.photons {
             // At what the camera sees directly, light paths left their light in the picture.
-            let rough = (point.flags & flag::ROUGH).ne(0);
+            let rough = (point.core.flags & flag::ROUGH).ne(0);
             let splats = l.m(transport.first_light == FirstLight::Splats);
             let unseen = (going_on & non_specular).and_not(splats & point.bounces.eq(0) & !rough);
             for (map, chosen) in [(&photons.fine, unseen.and_not(rough)), (&photons.coarse, unseen & rough)] {

@@ -10,7 +10,8 @@ use crate::stage::shade::{add_seen, guide_and_measure};
 use crate::stage::straight::straight_on;
 use crate::state::chunk::ChunkContext;
 use crate::state::flag::{self, event};
-use crate::state::paths::{PathLanes, Paths};
+use crate::state::path_core::PathCore;
+use crate::state::paths::Paths;
 use crate::state::queue::Queues;
 use crate::state::queue::branches::Branches;
 use crate::state::queue::shadow_rays::ShadowRays;
@@ -78,18 +79,18 @@ impl Integrator for WhittedIntegrator<'_> {
         }
         let present = if transport.path_filter == PathFilter::SpecularOnly { present & point.all_delta } else { present };
         for (way, ray) in Way::ALL.into_iter().zip(&kernels::specular_rays(l, lobes, point.local_wo)) {
-            let throughput = (point.throughput * ray.weight).keep_if(present);
+            let throughput = (point.core.throughput * ray.weight).keep_if(present);
             if way == Way::Straight {
                 straight.throughput += throughput;
                 // A pane has been seen itself.
                 straight.share += if material.surface.lobes.straight { point.share.keep_if(present) } else { l.f(0.0) };
             } else {
-                let going_on = point.bounces.lt(transport.limits.max_bounces) & transport.limits.allow(point.counts);
+                let going_on = point.bounces.lt(transport.limits.max_bounces) & transport.limits.allow(point.core.counts);
                 let wi = point.at.frame.to_world(ray.wi).normalize();
                 branch(chunk, point, &Branch { way, wi, throughput, share: l.f(0.0) }, going_on, branches);
             }
         }
-        branch(chunk, point, &straight, transport.limits.allow_straight(point.counts), branches);
+        branch(chunk, point, &straight, transport.limits.allow_straight(point.core.counts), branches);
     }
 
     #[inline(always)]
@@ -102,9 +103,9 @@ impl Integrator for WhittedIntegrator<'_> {
 #[inline(always)]
 fn part_from_open<L: Lanes>(material: &SurfaceMaterial, point: &mut Vertex<L>, lobes: &Lobes<'_, L>, open: &mut Branch<L>) -> M<L> {
     let opacity = threshold(lobes.opacity(), material.opacity_threshold).saturate();
-    open.throughput = (point.throughput * (1.0 - opacity)).keep_if(point.alive);
+    open.throughput = (point.core.throughput * (1.0 - opacity)).keep_if(point.alive);
     open.share = point.share * (1.0 - opacity);
-    point.throughput = point.throughput * opacity;
+    point.core.throughput = point.core.throughput * opacity;
     point.share *= opacity;
     opacity.gt(0.0)
 }
@@ -160,27 +161,12 @@ fn branch<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, ray: &Branch
         let on = straight_on(chunk, point);
         (on.ray, on.width, Some(on.passed))
     } else {
-        (point.at.spawn_ray(wi), point.width, None)
+        (point.at.spawn_ray(wi), point.core.width, None)
     };
-    let state = PathLanes {
-        ray,
-        passed,
-        from: point.at.as_previous(),
-        throughput,
-        pdf: share,
-        width,
-        spread: point.spread,
-        slot: point.slot,
-        flags: flags(chunk, point, way),
-        counts: point.counts + counted,
-        medium: if way == Way::Refracted || (way == Way::Straight && chunk.tables.any_volume) {
-            across.select(point.behind, point.medium)
-        } else {
-            point.medium
-        },
-        unguided: chunk.l.f(1.0),
-    };
-    branches.ways[way as usize].append(&state, alive);
+    let straight = chunk.l.m(way == Way::Straight);
+    let medium = point.media_towards(across, straight, chunk.tables.any_volume);
+    let core = PathCore { throughput, width, flags: flags(chunk, point, way), counts: point.core.counts + counted, medium, ..point.core };
+    branches.ways[way as usize].append(&point.go_on(ray, share, core).having_passed(passed), alive);
 }
 
 /// Which rays are followed, and with which throughput. For guides of denoisers Russian roulette decides: a lamp on a faint specular path may
@@ -194,7 +180,7 @@ fn worth<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, way: Way, thr
         return (throughput, usable & brightest.ge(LEAST_THROUGHPUT));
     }
     let dimension = context.dimension(way as u32);
-    let [chance, _] = context.sampler.pair(l, context.index(l, point.slot), dimension);
+    let [chance, _] = context.sampler.pair(l, context.index(l, point.core.slot), dimension);
     let survival = (brightest * ROULETTE_BELOW.recip()).min(1.0);
     (throughput * survival.max(f32::MIN_POSITIVE).recip(), usable & chance.lt(survival))
 }
@@ -208,14 +194,14 @@ fn flags<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, way: Way) -> 
     let kind = match way {
         Way::Mirrored | Way::Coat => event::GLOSSY,
         Way::Refracted => event::TRANSMISSION,
-        Way::Straight => return point.flags | non_specular,
+        Way::Straight => return point.core.flags | non_specular,
     };
-    let first = point.bounces.eq(0).select(l.u(kind << flag::FIRST_SHIFT), point.flags & (3 << flag::FIRST_SHIFT));
-    let before = (point.flags & flag::NON_SPECULAR_SEEN) | non_specular | first;
+    let first = point.bounces.eq(0).select(l.u(kind << flag::FIRST_SHIFT), point.core.flags & (3 << flag::FIRST_SHIFT));
+    let before = (point.core.flags & flag::NON_SPECULAR_SEEN) | non_specular | first;
     let state = match &transport.passes.expressions {
         Some(expressions) => {
             let through = if way == Way::Refracted { scattering::THROUGH } else { 0 };
-            expressions.step(point.flags, l.u(scattering::SHARP + through))
+            expressions.step(point.core.flags, l.u(scattering::SHARP + through))
         }
         None => l.u(0),
     };

@@ -1,8 +1,9 @@
 //! The queue of points whose illuminance is to be measured: `stage/shade.rs` and `stage/sensors.rs` fill it, `stage/measure.rs` empties it.
 
 use crate::state::columns::{Columns3, append3, columns3};
+use crate::state::path_core::PathCore;
 use gonio_camera::sampler::BATCH;
-use gonio_simd::{Column, F, Lanes, M, Spectrum, SpectrumColumns, U, Vec3, padded};
+use gonio_simd::{Column, F, Lanes, M, SpectrumColumns, U, Vec3, padded};
 
 /// Points whose illuminance is measured.
 #[derive(Debug)]
@@ -46,11 +47,9 @@ pub(crate) struct MeasureLanes<L: Lanes> {
     pub(crate) error: F<L>,
     pub(crate) geometric_normal: Vec3<L>,
     pub(crate) shading_normal: Vec3<L>,
-    pub(crate) throughput: Spectrum<L>,
-    pub(crate) width: F<L>,
-    pub(crate) slot: U<L>,
     pub(crate) receiver: U<L>,
-    pub(crate) medium: Spectrum<L>,
+    /// What the path carries that found them.
+    pub(crate) core: PathCore<L>,
 }
 
 impl MeasurePoints {
@@ -64,11 +63,19 @@ impl MeasurePoints {
         point.error.append(chosen, &mut self.error, n);
         append3(point.geometric_normal, chosen, &mut self.geometric_normal, n);
         append3(point.shading_normal, chosen, &mut self.shading_normal, n);
-        self.throughput.append(point.throughput, chosen, n);
-        point.width.append(chosen, &mut self.width, n);
-        point.slot.append(chosen, &mut self.slot, n);
+        self.throughput.append(point.core.throughput, chosen, n);
+        point.core.width.append(chosen, &mut self.width, n);
+        point.core.slot.append(chosen, &mut self.slot, n);
         point.receiver.append(chosen, &mut self.receiver, n);
-        self.medium.append(point.medium, chosen, n);
+        self.medium.append(point.core.medium, chosen, n);
         self.count += chosen.count();
+    }
+
+    /// What paths carry that start at some points: theirs is a slot of its own, and they have met nothing yet.
+    #[inline(always)]
+    pub(crate) fn core<L: Lanes>(&self, l: L, at: usize) -> PathCore<L> {
+        let slot = l.load_integers(&self.slot, at) + BATCH as u32;
+        let (throughput, width, medium) = (self.throughput.load(l, at), l.load(&self.width, at), self.medium.load(l, at));
+        PathCore { throughput, width, medium, ..PathCore::new(l, slot, l.u(0)) }
     }
 }

@@ -1,12 +1,14 @@
 //! Subsurface random walks under way: started by `stage/scatter.rs`, taken step by step in `stage/subsurface.rs`.
 
+use crate::state::path_core::PathCore;
+use crate::state::paths::Paths;
 use crate::state::rays::{RayLanes, Rays};
 use crate::state::times::SlotTimes;
 use crate::tables::ray_mask;
 use gonio_accel::Hits;
 use gonio_bsdf::subsurface::Medium;
 use gonio_camera::sampler::CAPACITY;
-use gonio_simd::{Column, F, Lanes, M, PADDING, Spectrum, SpectrumColumns, U, padded};
+use gonio_simd::{Column, Lanes, M, PADDING, Spectrum, SpectrumColumns, U, padded};
 
 /// Walks under way, a column entry each.
 #[derive(Debug)]
@@ -65,14 +67,11 @@ pub(crate) struct WalkHits {
 pub(crate) struct WalkLanes<L: Lanes> {
     /// The flight under way.
     pub(crate) ray: RayLanes<L>,
-    pub(crate) throughput: Spectrum<L>,
+    /// What the path carries; what does not change inside is looked up where it comes out, by [`Self::path`].
+    pub(crate) core: PathCore<L>,
     pub(crate) medium: Medium<L>,
     pub(crate) path: U<L>,
     pub(crate) instance: U<L>,
-    pub(crate) slot: U<L>,
-    pub(crate) flags: U<L>,
-    pub(crate) counts: U<L>,
-    pub(crate) width: F<L>,
 }
 
 impl Walks {
@@ -85,16 +84,16 @@ impl Walks {
     pub(crate) fn append<L: Lanes>(&mut self, w: &WalkLanes<L>, chosen: M<L>) {
         let n = self.count;
         self.rays.append(&w.ray, chosen, n);
-        self.throughput.append(w.throughput, chosen, n);
+        self.throughput.append(w.core.throughput, chosen, n);
         self.albedo.append(w.medium.albedo, chosen, n);
         self.extinction.append(w.medium.extinction, chosen, n);
         w.medium.anisotropy.append(chosen, &mut self.anisotropy, n);
         w.path.append(chosen, &mut self.path, n);
         w.instance.append(chosen, &mut self.instance, n);
-        w.slot.append(chosen, &mut self.slot, n);
-        w.flags.append(chosen, &mut self.flags, n);
-        w.counts.append(chosen, &mut self.counts, n);
-        w.width.append(chosen, &mut self.width, n);
+        w.core.slot.append(chosen, &mut self.slot, n);
+        w.core.flags.append(chosen, &mut self.flags, n);
+        w.core.counts.append(chosen, &mut self.counts, n);
+        w.core.width.append(chosen, &mut self.width, n);
         self.count += chosen.count();
     }
 
@@ -102,7 +101,12 @@ impl Walks {
     pub(crate) fn load<L: Lanes>(&self, l: L, at: usize) -> WalkLanes<L> {
         WalkLanes {
             ray: self.rays.load(l, at),
-            throughput: self.throughput.load(l, at),
+            core: PathCore {
+                throughput: self.throughput.load(l, at),
+                counts: l.load_integers(&self.counts, at),
+                width: l.load(&self.width, at),
+                ..PathCore::new(l, l.load_integers(&self.slot, at), l.load_integers(&self.flags, at))
+            },
             medium: Medium {
                 albedo: self.albedo.load(l, at),
                 extinction: self.extinction.load(l, at),
@@ -110,10 +114,19 @@ impl Walks {
             },
             path: l.load_integers(&self.path, at),
             instance: l.load_integers(&self.instance, at),
-            slot: l.load_integers(&self.slot, at),
-            flags: l.load_integers(&self.flags, at),
-            counts: l.load_integers(&self.counts, at),
-            width: l.load(&self.width, at),
+        }
+    }
+
+    /// What the paths carry whose walks come out: what has changed inside is theirs, the rest is that of the `paths` that entered.
+    #[inline(always)]
+    pub(crate) fn core<L: Lanes>(&self, l: L, walk: U<L>, paths: &Paths, any_absorbing: bool) -> PathCore<L> {
+        let path = l.gather_integers(&self.path, walk);
+        PathCore {
+            throughput: self.throughput.gather(l, walk),
+            counts: l.gather_integers(&self.counts, walk),
+            width: l.gather(&self.width, walk),
+            medium: if any_absorbing { paths.medium.gather(l, path) } else { Spectrum::zero(l) },
+            ..PathCore::new(l, l.gather_integers(&self.slot, walk), l.gather_integers(&self.flags, walk))
         }
     }
 }
