@@ -97,9 +97,14 @@ fn unsafe_code_has_few_homes() {
 
 #[test]
 fn no_circle_has_more_than_four_files() {
-    for (name, _) in CRATES.into_iter().filter(|(name, _)| *name != "formats") {
-        let circles = circles::of(&root().join("rust-core").join(name).join("src"));
-        let large: Vec<_> = circles.into_iter().filter(|circle| circle.len() > 4).collect();
+    let crates = CRATES
+        .iter()
+        .map(|(name, _)| format!("rust-core/{name}"))
+        .chain(["rust-core/bench", "rust-core/cli", "rust-core/python"].map(str::to_owned));
+    // Places of a stage's prims and the nodes of materials are read through each other.
+    for (name, most) in crates.map(|name| (name, 4)).chain([("usd".to_owned(), 5)]) {
+        let circles = circles::of(&root().join(&name).join("src"));
+        let large: Vec<_> = circles.into_iter().filter(|circle| circle.len() > most).collect();
         assert_eq!(large, Vec::<Vec<String>>::new(), "{name}");
     }
 }

@@ -1,12 +1,12 @@
 //! What a stage's reader carries along: the scene under construction, what is to be reported, caches, and the time.
 
-use crate::goniogram::LuminaireFile;
 use crate::kept::Kept;
+use crate::luminaire_file::LuminaireFile;
 use crate::material::{Library, Shaded};
 use crate::options::StageOptions;
 use crate::prim::{Attribute, Prim};
 use crate::pxr;
-use crate::render_pass::Roles;
+use crate::roles::Roles;
 use crate::vt::FromValue;
 use gonio::scene::{Goniogram, MaterialId, MeasuredId, Origin, Scene, TextureId};
 use gonio::{Diagnostic, Error, Result};

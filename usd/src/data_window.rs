@@ -1,6 +1,6 @@
 //! UsdRender's `dataWindowNDC`: the pixels that are rendered, fewer than the picture's or more (overscan).
 
-use crate::settings::WHOLE_PICTURE;
+use crate::render_settings::WHOLE_PICTURE;
 use gonio::scene::{Camera, Crop, Projection, Scene};
 
 /// How far a window may reach beyond the picture, in widths and heights of it.

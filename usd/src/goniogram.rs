@@ -2,29 +2,13 @@
 
 use crate::asset;
 use crate::context::Context;
+use crate::luminaire_file::LuminaireFile;
 use crate::prim::Prim;
 use crate::vt::AssetPath;
 use gonio::Error;
-use gonio::scene::{Goniogram, Light, Origin, PhotometricType};
+use gonio::scene::{Goniogram, Origin, PhotometricType};
 use gonio_formats::{FormatError, photometry};
 use std::{f64::consts::PI, sync::Arc};
-
-/// A luminaire's file that lights of a stage name, with what it says beside the intensities.
-#[derive(Clone, Debug)]
-pub struct LuminaireFile {
-    /// The path as the stage has it.
-    pub path: String,
-    /// What the file holds.
-    pub photometry: photometry::Goniogram,
-    goniogram: Arc<Goniogram>,
-}
-
-impl LuminaireFile {
-    /// Whether a light of the scene that was read with it has its goniogram from this file.
-    pub fn is_of(&self, light: &Light) -> bool {
-        light.goniogram.as_ref().is_some_and(|goniogram| Arc::ptr_eq(goniogram, &self.goniogram))
-    }
-}
 
 /// What a light asks of its file.
 #[derive(Clone, Copy, Debug)]

@@ -5,8 +5,7 @@
 
 use crate::options::{SampleTime, StageOptions};
 use crate::prim::Prim;
-use crate::xform::LocalTransform;
-use gonio::scene::{Curves, Mesh, Points};
+use gonio::scene::{Curves, Mesh, Points, Transform};
 use pyo3::intern;
 use pyo3::prelude::*;
 use std::collections::{HashMap, HashSet};
@@ -29,6 +28,15 @@ impl KeptPrim {
     pub(crate) fn prim<'py>(&self, py: Python<'py>) -> Prim<'py> {
         Prim::with(self.object.bind(py).clone(), self.known.clone())
     }
+}
+
+/// A prim's own transformation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LocalTransform {
+    /// Local space to the parent's, or to the stage's where `resets`.
+    pub transform: Transform,
+    /// Whether the transformations of the ancestors do not count (`!resetXformStack!`).
+    pub resets: bool,
 }
 
 /// What is known of a prim; each cell is filled when it is first asked for.

@@ -1,6 +1,6 @@
 //! What of a stage is read, and how.
 
-use crate::settings::RenderSettings;
+use crate::render_settings::RenderSettings;
 use gonio::scene::Aov;
 use std::path::PathBuf;
 

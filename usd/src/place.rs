@@ -7,7 +7,7 @@ mod rebound;
 use crate::context::Context;
 use crate::model::{Element, Group, Inherited, Kind, Model, Shape};
 use crate::options::Purpose;
-use crate::render_pass::Role;
+use crate::roles::Role;
 use crate::view::shines;
 use crate::{camera, daylight, light, light_filter, material, mesh_light, meter, primvar};
 use gonio::scene::{

@@ -2,32 +2,9 @@
 
 use crate::context::Context;
 use crate::prim::Prim;
+use crate::render_settings::{RenderVariable, Source};
 use gonio::film::{Image, Layer};
 use gonio::scene::{AMBIENT_OCCLUSION, Aov, EYE_NORMAL, EYE_POSITION, LightPath, MatteKind, PRIMVARS, Settings, ShaderValue};
-
-/// What a variable shows.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Source {
-    /// A pass.
-    Pass(Aov),
-    /// Light of an expression that gonio can show.
-    LightPath(String),
-    /// A value of the first surface that shading nodes compute: a primvar, or a vector in the camera's space.
-    Shader(ShaderValue, String),
-    /// All layers of a cryptomatte.
-    Cryptomatte(MatteKind),
-}
-
-/// A `RenderVar` prim.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RenderVariable {
-    /// The name of its layer in files.
-    pub name: String,
-    /// What it shows.
-    pub source: Source,
-    /// Whether files have it in half floats.
-    pub half: bool,
-}
 
 /// Reads a variable; `None`, with a report, for those that gonio does not have.
 pub(crate) fn read<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<RenderVariable> {

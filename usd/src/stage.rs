@@ -10,12 +10,13 @@ mod problem;
 pub use info::{CameraInfo, StageInfo};
 
 use crate::context::Context;
-use crate::goniogram::LuminaireFile;
 use crate::kept::Kept;
+use crate::luminaire_file::LuminaireFile;
 use crate::options::{SampleTime, StageOptions};
 use crate::prim::Prim;
 use crate::pxr::{Module, Trap};
-use crate::settings::{self, RenderSettings};
+use crate::render_settings::RenderSettings;
+use crate::settings;
 use crate::traverse::Walker;
 use crate::watch::Reading;
 use crate::{material, motion, place, pxr, render_pass, skeleton};

@@ -3,7 +3,8 @@
 use crate::camera::choose;
 use crate::context::UpAxis;
 use crate::framing::{CAMERA_LIT_CLAMP, ConformPolicy, aperture_aspect, auto_camera, camera_light, dome_light};
-use crate::settings::{Framing, conform_cameras};
+use crate::render_settings::Framing;
+use crate::settings::conform_cameras;
 use crate::stage::Loaded;
 use crate::{data_window, render_variable};
 use gonio::compile::Bounds;

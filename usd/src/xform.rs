@@ -1,21 +1,13 @@
 //! Local transformations at the time that is read.
 
 use crate::context::Context;
+use crate::kept::LocalTransform;
 use crate::prim::Prim;
 use crate::pxr::Module;
 use crate::vt::FromValue;
 use gonio::scene::Transform;
 use pyo3::intern;
 use pyo3::prelude::*;
-
-/// A prim's own transformation.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LocalTransform {
-    /// Local space to the parent's, or to the stage's where `resets`.
-    pub transform: Transform,
-    /// Whether the transformations of the ancestors do not count (`!resetXformStack!`).
-    pub resets: bool,
-}
 
 /// Reads local transformations; `UsdGeom.XformCache` is the fastest of the ways that `pxr` has (measured: 3.5 µs a prim).
 #[derive(Debug)]

@@ -11,13 +11,14 @@ mod plot;
 mod rays;
 mod report;
 mod scenes;
+mod stage;
 mod stages;
 mod text;
 
 pub use paper::paper;
 pub use plot::plot;
 pub use report::{Breakdown, Figure, LanesAlive, LevelBreakdown, Machine, Report, Row, Share, Spread};
-pub use stages::Stage;
+pub use stage::Stage;
 pub use text::heading;
 
 use gonio::error::Result;
@@ -62,7 +63,7 @@ pub fn run(options: &Options, cancel: &AtomicBool, mut on_row: impl FnMut(&Row))
     let asked = |stage: &Stage| options.stages.contains(stage);
     let stages = Stage::ALL.into_iter().filter(|stage| options.stages.is_empty() || asked(stage));
     for stage in stages.chain(Stage::PAPER.into_iter().filter(asked)) {
-        for mut case in stage.cases(options, cancel)? {
+        for mut case in stages::cases(stage, options, cancel)? {
             let rows = measured(stage, &mut case, options.seconds, cancel)?;
             rows.iter().for_each(&mut on_row);
             report.rows.extend(rows);

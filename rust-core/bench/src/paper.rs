@@ -3,10 +3,8 @@
 //! Coherent ray tracing for physically accurate rendering on SSE, four lanes, one thread; its figures are those of its Tables 1 to 4.
 
 use super::report::{Breakdown, Report, Row};
-use super::stages::{
-    Stage,
-    paper::{FRAME, FRAME_THREADS},
-};
+use super::stage::Stage;
+use super::stages::paper::{FRAME, FRAME_THREADS};
 use std::fmt::Write;
 
 /// What the paper gained by four lanes, by stage and row.

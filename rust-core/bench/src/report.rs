@@ -4,7 +4,7 @@ use super::{
     Options,
     kernel::Case,
     measure::{Slots, Variant},
-    stages::Stage,
+    stage::Stage,
 };
 use gonio::threads::available_threads;
 use serde::Serialize;

@@ -3,7 +3,7 @@
 use super::{
     arguments::BenchOptions,
     file::{check_targets, put},
-    print,
+    messages::print,
 };
 use gonio::{Error, Result};
 use gonio_bench::{Options, Stage, heading, paper, paper_pictures, plot, run};

@@ -1,6 +1,6 @@
 //! Keeping a render on disk while it runs.
 
-use super::{arguments::CheckpointArguments, say};
+use super::{arguments::CheckpointArguments, messages::say};
 use gonio::{
     Error, Result,
     checkpoint::{Checkpoint, Identity, parts, write_checkpoint},

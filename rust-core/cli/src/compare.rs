@@ -3,7 +3,8 @@
 use super::{
     arguments::CompareOptions,
     file::{check_targets, put},
-    print, say,
+    messages::print,
+    messages::say,
 };
 use gonio::{
     Error, Result,

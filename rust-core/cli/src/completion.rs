@@ -2,7 +2,7 @@
 
 use super::{
     arguments::{Arguments, CompletionOptions, ShellArgument},
-    print,
+    messages::print,
 };
 use clap::CommandFactory;
 use clap_complete::{Shell, generate};

@@ -1,6 +1,6 @@
 //! `gonio render --sun`.
 
-use super::{arguments::DaylightArguments, file, say};
+use super::{arguments::DaylightArguments, file, messages::say};
 use gonio::sky::{DEFAULT_ROWS, Daylight, Frame, Irradiance, Moment, Place, SkyModel, in_irradiances};
 use gonio::{Diagnostic, Error, Result, scene::Origin};
 use gonio_formats::weather;

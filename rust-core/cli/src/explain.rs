@@ -1,6 +1,6 @@
 //! `--explain`: what a prim has become.
 
-use super::{arguments::RenderOptions, light_words::describe, print, render::sample_time};
+use super::{arguments::RenderOptions, light_words::describe, messages::print, render::sample_time};
 use gonio::{
     Result,
     compile::luminous_fluxes,

@@ -1,11 +1,12 @@
 //! `gonio render --dask`: the cluster and its workers are the Python side's (`gonio.farm`), the pictures are put together here.
 
 use super::{
-    INTERRUPTED,
     arguments::{Arguments, Command, RenderOptions},
     denoise::Denoiser,
     file::check_targets,
-    file_name, list,
+    file_name,
+    interrupt::INTERRUPTED,
+    messages::list,
     output::{Notes, Writer},
     products::{gamut_of, half_layers},
     progress::Reporter,

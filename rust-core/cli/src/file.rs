@@ -1,6 +1,6 @@
 //! Files that commands are given, and those they write.
 
-use super::print;
+use super::messages::print;
 use gonio::{
     Error, Result,
     output::{check_writable, is_ordinary, write_atomically},

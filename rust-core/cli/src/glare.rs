@@ -5,7 +5,7 @@ use super::{
     channel::Picture,
     falsecolor::write,
     file::{check_ending, check_targets},
-    print,
+    messages::print,
 };
 use gonio::{
     Error, Result,

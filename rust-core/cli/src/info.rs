@@ -1,6 +1,6 @@
 //! `gonio info`.
 
-use super::{arguments::InfoOptions, explain, lamps_in_view, light_numbers, light_words::describe, print, render::stage_options};
+use super::{arguments::InfoOptions, explain, lamps_in_view, light_numbers, light_words::describe, messages::print, render::stage_options};
 use gonio::{
     Diagnostic, Result,
     compile::{CompiledScene, compile},

@@ -1,8 +1,11 @@
 //! Ctrl-C and other signals through Python's own machinery, so that nothing unsafe is needed.
 
-use super::{INTERRUPTED, snapshot::SNAPSHOT_ASKED};
+use super::snapshot::SNAPSHOT_ASKED;
 use pyo3::{prelude::*, types::PyCFunction};
 use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Set by the first Ctrl-C, and by signals that ask to end.
+pub(super) static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 
 /// What asks to end: a terminal, a scheduler or a system that shuts down, a terminal that is gone.
 const ENDING: [&str; 3] = ["SIGINT", "SIGTERM", "SIGHUP"];

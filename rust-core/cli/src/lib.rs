@@ -28,6 +28,7 @@ mod light_words;
 mod map;
 mod measure;
 mod merge;
+mod messages;
 mod output;
 mod photometry;
 mod products;
@@ -46,22 +47,11 @@ pub use view::{Viewed, view_scene};
 
 use arguments::{Arguments, Command};
 use clap::Parser;
-use gonio::{Diagnostic, Error, Severity};
+use gonio::Error;
+use interrupt::INTERRUPTED;
+use messages::{check_printed, say};
 use pyo3::Python;
-use std::{
-    io,
-    path::Path,
-    sync::{
-        Mutex, PoisonError,
-        atomic::{AtomicBool, Ordering},
-    },
-};
-
-/// Set by the first Ctrl-C, and by signals that ask to end.
-static INTERRUPTED: AtomicBool = AtomicBool::new(false);
-
-/// What went wrong with standard output.
-static LOST: Mutex<Option<io::Error>> = Mutex::new(None);
+use std::sync::atomic::Ordering;
 
 /// Exit status of a run that was interrupted.
 const INTERRUPTED_STATUS: i32 = 130;
@@ -127,41 +117,5 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
             say(&format!("error: {error}"));
             1
         }
-    }
-}
-
-/// A line on standard error.
-fn say(line: &str) {
-    use std::io::Write;
-    // Messages may quote a broken file's bytes, which must not break the line.
-    let line: String = line.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect();
-    // A closed standard error leaves nobody to tell.
-    let _ = writeln!(std::io::stderr(), "gonio: {line}");
-}
-
-/// A line on standard output; one that is lost is told at the end. Who closed a pipe wants no more.
-fn print(line: &str) {
-    use std::io::Write;
-    if let Err(error) = writeln!(std::io::stdout(), "{line}")
-        && error.kind() != std::io::ErrorKind::BrokenPipe
-    {
-        *LOST.lock().unwrap_or_else(PoisonError::into_inner) = Some(error);
-    }
-}
-
-/// Says what became of standard output, where lines of it were lost.
-fn check_printed() -> gonio::Result<()> {
-    let lost = LOST.lock().unwrap_or_else(PoisonError::into_inner).take();
-    lost.map_or(Ok(()), |error| Err(Error::io(Path::new("standard output"), error)))
-}
-
-/// Lists what is not as asked: warnings line by line, at most `most`, and how many more there are.
-fn list(diagnostics: &[Diagnostic], most: usize) {
-    let warnings: Vec<_> = diagnostics.iter().filter(|diagnostic| diagnostic.severity == Severity::Warning).collect();
-    for warning in warnings.iter().take(most) {
-        say(&format!("warning: {warning}"));
-    }
-    if warnings.len() > most {
-        say(&format!("{} more warnings; --verbose lists them all", warnings.len() - most));
     }
 }

@@ -4,10 +4,11 @@ use super::{
     arguments::MapArguments,
     daylight, falsecolor,
     file::{check_ending, check_targets, ending, print_path, put, write_or_keep},
-    list, print,
+    messages::list,
+    messages::print,
+    messages::say,
     progress::Reporter,
     render::{MOST_WARNINGS, stage_options},
-    say,
     share::share,
 };
 use gonio::{

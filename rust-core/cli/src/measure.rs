@@ -5,7 +5,8 @@ use super::{
     daylight, falsecolor,
     file::{check_ending, check_targets, print_path, put},
     glare::coverage_json,
-    list, print,
+    messages::list,
+    messages::print,
     progress::Reporter,
     render::{MOST_WARNINGS, stage_options},
 };

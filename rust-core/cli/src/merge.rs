@@ -3,8 +3,8 @@
 use super::{
     arguments::MergeArguments,
     file::check_targets,
+    messages::say,
     output::{Notes, Writer},
-    say,
 };
 use gonio::{Error, Result, checkpoint::merge as join};
 use gonio_simd::Execution;

@@ -1,6 +1,6 @@
 //! Progress: a bar on a terminal, a line now and then elsewhere.
 
-use super::say;
+use super::messages::say;
 use gonio::render::Progress;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::{

@@ -3,7 +3,7 @@
 use super::{
     arguments::RelightOptions,
     file::{check_ending, check_targets, print_path, write_or_keep},
-    say,
+    messages::say,
 };
 use gonio::{
     Error, Result,

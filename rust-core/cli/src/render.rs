@@ -6,12 +6,14 @@ use super::{
     checkpoint::{Keeper, sample_range, take_part},
     daylight, explain,
     file::check_targets,
-    file_name, frames, list,
+    file_name, frames,
+    messages::list,
+    messages::print,
+    messages::say,
     output::{Notes, Writer},
-    print,
     products::{Picture, Products, half_layers},
     progress::{Reporter, clock},
-    say, sequence,
+    sequence,
     snapshot::Snapshots,
 };
 use gonio::{

@@ -1,6 +1,6 @@
 //! Frames one after the other: one that fails does not end the others.
 
-use super::say;
+use super::messages::say;
 use gonio::{Error, Result};
 
 /// The status of a run of which frames have failed.

@@ -1,9 +1,9 @@
 //! `gonio view`: the window is the Python side's (`gonio.view`); what it shows of a stage is read here, in a process of its own.
 
 use super::{
-    INTERRUPTED,
     arguments::{Arguments, Command, ShowArgument, ViewOptions},
     daylight,
+    interrupt::INTERRUPTED,
     render::stage_options,
 };
 use clap::Parser;

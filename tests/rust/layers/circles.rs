@@ -24,9 +24,16 @@ fn modules(source: &Path) -> BTreeMap<Module, String> {
         }
         let text = fs::read_to_string(&file).expect("a readable source");
         let code = text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
-        all.insert(module, code.lines().map(|line| line.split("//").next().unwrap_or_default()).collect::<Vec<_>>().join("\n"));
+        all.insert(module, code.lines().map(without_aside).collect::<Vec<_>>().join("\n"));
     }
     all
+}
+
+/// A line without comment, and without the modules that see what it declares.
+fn without_aside(line: &str) -> String {
+    let mut pieces = line.split("//").next().unwrap_or_default().split("pub(in ");
+    let first = pieces.next().unwrap_or_default().to_owned();
+    pieces.fold(first, |code, piece| code + "pub" + piece.split_once(')').map_or(piece, |(_, rest)| rest))
 }
 
 /// The paths that a tree of imports names.
@@ -96,9 +103,21 @@ fn imports(all: &BTreeMap<Module, String>) -> (BTreeMap<Module, Vec<Module>>, BT
                 }
             }
         }
+        own.extend(named(code).filter_map(|path| absolute(module, path, all)));
     }
     (uses, handed_on)
 }
+
+/// Paths of two parts or more that code names outside of its imports.
+fn named(code: &str) -> impl Iterator<Item = &str> {
+    let bodies =
+        code.split(';').filter(|statement| !statement.lines().any(|line| IMPORTS.iter().any(|word| line.trim().starts_with(word))));
+    let tokens = bodies.flat_map(|statement| statement.split(|c: char| !c.is_alphanumeric() && c != '_' && c != ':'));
+    tokens.map(|token| token.trim_end_matches(':')).filter(|token| token.contains("::") && !token.starts_with(':'))
+}
+
+/// How lines begin that import.
+const IMPORTS: [&str; 4] = ["use ", "pub use ", "pub(crate) use ", "pub(super) use "];
 
 /// The file that a path leads to.
 fn file_of(path: &Module, all: &BTreeMap<Module, String>, handed_on: &BTreeMap<Module, Module>, left: u32) -> Module {

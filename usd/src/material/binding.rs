@@ -1,6 +1,6 @@
 //! Which material a prim has: UsdShade's resolution over inheritance, strength, collections and purposes.
 
-use super::fallback;
+use super::convert::fallback;
 use super::shaded::material_on;
 use crate::context::Context;
 use crate::kept::KeptPrim;

@@ -4,7 +4,7 @@ use super::emit::{is_constant, multiply};
 use super::from_usd;
 use super::network::{Network, Shader};
 use super::neutral::NodeIndex;
-use super::{RENDER_CONTEXTS, is_preview_surface, output_name};
+use super::outputs::{RENDER_CONTEXTS, is_preview_surface, output_name};
 use crate::context::Context;
 use crate::prim::Prim;
 use crate::pxr::Module;

@@ -1,6 +1,6 @@
 //! Materials that ask for text of the prim that they shade, as the name of an image: one material for each set of answers.
 
-use super::convert;
+use super::convert::convert;
 use super::neutral::Value;
 use super::textures::resolve_text;
 use crate::context::Context;
@@ -8,15 +8,6 @@ use crate::prim::{Attribute, Prim};
 use crate::pxr::Module;
 use gonio::scene::MaterialId;
 use pyo3::{intern, prelude::*};
-
-/// What is asked of the prim that is shaded.
-#[derive(Debug, Default)]
-pub struct Shaded<'py> {
-    /// The prim.
-    prim: Option<Prim<'py>>,
-    /// Names of its primvars that the material under way has asked for.
-    asked: Vec<String>,
-}
 
 /// The scene's material for a material prim on a prim, converted when first asked for; `None` where its surface cannot be converted, which is
 /// reported once.

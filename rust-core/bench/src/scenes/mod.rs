@@ -14,3 +14,15 @@ pub(super) use glass::glass;
 pub(super) use measured::{glossy_room, measured_room, table};
 pub(super) use room::room;
 pub(super) use strands::strands;
+
+use gonio::{
+    compile::{CompiledScene, compile},
+    error::Result,
+    scene::Scene,
+};
+use std::sync::{Arc, atomic::AtomicBool};
+
+/// A scene laid out.
+pub(super) fn compiled(scene: &Scene, cancel: &AtomicBool) -> Result<Arc<CompiledScene>> {
+    compile(scene, None, cancel).map(Arc::new)
+}

@@ -1,6 +1,6 @@
 //! Camera rays of a tile: numbers, filter, lens and appending.
 
-use super::compiled;
+use crate::scenes::compiled;
 use crate::{
     kernel::{Case, Kernel, Outcome},
     scenes,

@@ -1,6 +1,6 @@
 //! One light sampled from points on a floor, by type of light.
 
-use super::compiled;
+use crate::scenes::compiled;
 use crate::{
     kernel::{Case, Kernel, Outcome},
     numbers::{BATCH, columns3, cube},

@@ -1,6 +1,6 @@
 //! Light paths: from the lights through the stages of camera paths until they end.
 
-use super::compiled;
+use crate::scenes::compiled;
 use crate::{
     kernel::{Case, Kernel, Outcome},
     scenes,

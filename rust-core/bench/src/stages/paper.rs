@@ -1,13 +1,10 @@
 //! The paper's three scenes by its renderer: trees of rays, its depths and its antialiasing.
 
-use super::{
-    compiled,
-    render::{Whole, coloured},
-};
+use super::render::{Whole, coloured};
 use crate::{
     Options,
     kernel::{Case, Kernel, Outcome},
-    scenes,
+    scenes::{self, compiled},
 };
 use gonio::error::Result;
 use gonio::output::{Look, display, write_picture};

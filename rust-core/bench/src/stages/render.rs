@@ -1,6 +1,6 @@
 //! Whole renders: what all stages come to together, where the time goes, and how full registers are.
 
-use super::compiled;
+use crate::scenes::compiled;
 use crate::{
     Breakdown, Options,
     kernel::{Case, Kernel, Outcome},

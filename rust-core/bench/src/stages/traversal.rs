@@ -1,6 +1,6 @@
 //! Rays through the trees of the car, and of a head of hair, by class.
 
-use super::compiled;
+use crate::scenes::compiled;
 use crate::{
     kernel::{Case, Kernel, Outcome, ROUNDING},
     numbers::{BATCH, Random},

@@ -1,6 +1,6 @@
 //! One ray against eight triangles, apart from the tree.
 
-use super::compiled;
+use crate::scenes::compiled;
 use crate::{
     kernel::{Case, Kernel, Outcome, ROUNDING},
     scenes,

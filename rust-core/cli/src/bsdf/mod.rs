@@ -9,7 +9,7 @@ use super::{
     arguments::BsdfOptions,
     drawing,
     file::{self, check_ending, check_targets, ending, put},
-    print,
+    messages::print,
 };
 use gonio::{Error, Result};
 use gonio_formats::bsdf::{Format, Measured, lobe_diagram, lobe_map, read};

@@ -4,7 +4,7 @@ use super::Loaded;
 use crate::{
     arguments::SampleArguments,
     daylight::number,
-    list,
+    messages::list,
     progress::{Reporter, clock},
     render::MOST_WARNINGS,
     share::share,

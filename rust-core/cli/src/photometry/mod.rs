@@ -11,7 +11,7 @@ use super::{
     arguments::{PhotometryOptions, SymmetryName},
     drawing,
     file::{self, check_ending, check_targets, ending, put},
-    print,
+    messages::print,
 };
 use gonio::{Error, Result};
 use gonio_formats::photometry::{

@@ -15,11 +15,11 @@ use super::{
     denoise::Denoiser,
     falsecolor,
     file::{check_ending, check_targets, print_path, put},
-    list,
     measure::{author_grids, evaluated},
+    messages::list,
+    messages::say,
     progress::Reporter,
     render::{MOST_WARNINGS, stage_options},
-    say,
 };
 use gonio::{
     Diagnostic, Error, Result, Severity,

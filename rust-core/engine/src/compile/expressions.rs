@@ -1,6 +1,6 @@
 //! Light path expressions that are followed along paths: their automaton as tables, and what each light counts as.
 
-use super::CompiledScene;
+use super::compiled::CompiledScene;
 use crate::{
     error::{Error, Result},
     geometry::NONE,

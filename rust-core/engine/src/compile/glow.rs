@@ -1,6 +1,6 @@
 //! How much triangles glow whose emission a shading program knows: means over points of each, for light sampling.
 
-use super::check;
+use super::cancel::check;
 use crate::{
     accel::Tlas,
     error::{Error, Result},

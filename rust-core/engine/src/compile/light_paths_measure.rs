@@ -3,7 +3,7 @@
 //! Pictures weigh noise against time (`light_paths_pay`). A meter that misses light shows a wrong figure without noise, so little is left to chance here.
 
 use super::{
-    CompiledScene,
+    compiled::CompiledScene,
     light_paths_pay::{self, Brought, dome_mean, is_sizeless, mean},
 };
 use crate::{
@@ -59,7 +59,7 @@ pub(crate) fn for_meters(scene: &CompiledScene, settings: &Settings, cancel: &At
     }
     let (brought, escaped) = light_paths_pay::trace(scene, settings, BATCHES, cancel);
     let all = with_escaped(&brought, &escaped);
-    let records = scene.kept_lights.records();
+    let records = scene.kept.lights.records();
     let either = |noise: &dyn Fn(&[Brought]) -> f64| noise(&brought) >= LEAST_NOISE || noise(&all) >= LEAST_NOISE;
     let is_triangle = |(record, _): &(&LightRecord, &Brought)| record.kind == LightKind::Triangle;
     let triangles = either(&|brought| noise(scene, records.iter().zip(brought).filter(is_triangle)));
@@ -111,7 +111,7 @@ fn radiance(record: &LightRecord, flux: f64) -> f64 {
 
 /// Whether a dome has its light from a small part of it, as pictures of skies with a sun have.
 fn is_peaked(scene: &CompiledScene, record: &LightRecord) -> bool {
-    let images = scene.kept_lights.images();
+    let images = scene.kept.lights.images();
     let [once, twice] = [dome_mean(record, images, |radiance| radiance), dome_mean(record, images, |radiance| radiance * radiance)];
     once > 0.0 && twice >= LEAST_NOISE * once * once
 }

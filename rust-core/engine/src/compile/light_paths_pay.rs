@@ -1,7 +1,7 @@
 //! Whether light paths bring caustics by themselves: a few thousand of them tell how much light mirrors and clear glass send on, and how noisy it
 //! would be if camera paths had to meet the lights by chance.
 
-use super::{CompiledScene, casters, light_paths_measure, view};
+use super::{casters, compiled::CompiledScene, light_paths_measure, view};
 use crate::{
     error::{Diagnostic, Result},
     light::{EmissionSampler, LightKind, LightRecord, LightTexture},
@@ -88,7 +88,7 @@ pub(crate) fn emission(scene: &CompiledScene, starts: &[bool]) -> EmissionSample
 pub(super) fn decide(compiled: &mut CompiledScene, scene: &Scene, of_light: &[u32], cancel: &AtomicBool) -> Result<()> {
     if scene.settings.caustics == Caustics::Auto && are_possible(compiled, &scene.settings) {
         let (brought, _) = trace(compiled, &scene.settings, BATCHES, cancel);
-        super::check(cancel)?;
+        super::cancel::check(cancel)?;
         let found = findings(compiled, &brought);
         compiled.casters.pay =
             found.noise >= LEAST_NOISE || found.lost >= LEAST_LOST || found.shut_in || is_measured(compiled, scene, cancel);
@@ -172,13 +172,13 @@ impl Receiver for Tally {
 /// Where light of radiance L brings irradiance E by mirrors and glass, a camera path meets it with probability E / (π L) and then finds L: a variance of
 /// L E / π. It is told in squares of the mean light, E₀ / π, over surfaces as large as the scene's sphere.
 fn findings(compiled: &CompiledScene, brought: &[Brought]) -> Findings {
-    let records = compiled.kept_lights.records();
+    let records = compiled.kept.lights.records();
     let radius = compiled.bounds.radius();
     let area = 4.0 * PI * radius * radius;
     let of_lights: f64 = brought.iter().map(|b| b.straight + b.by_casters).sum();
     let domes = records.iter().filter(|record| record.kind == LightKind::Dome);
     // Half of what comes through the sphere.
-    let of_domes: f64 = domes.map(|dome| 2.0 * PI * PI * radius * radius * dome_radiance(dome, compiled.kept_lights.images())).sum();
+    let of_domes: f64 = domes.map(|dome| 2.0 * PI * PI * radius * radius * dome_radiance(dome, compiled.kept.lights.images())).sum();
     let total = of_lights + of_domes;
     let (mut found, mut most) = (Findings::default(), 0.0);
     if !(of_lights > 0.0 && total.is_finite()) {

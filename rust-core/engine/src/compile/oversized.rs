@@ -1,6 +1,6 @@
 //! Luminaires that are larger than the scene they hang in: an opening or a scene in the wrong unit.
 
-use super::Bounds;
+use super::bounds::Bounds;
 use crate::{
     error::Diagnostic,
     scene::{Light, LightShape, Scene},

@@ -75,7 +75,7 @@ pub(super) fn compile(
         || load(&requests, scene, cancel),
         || rayon::join(|| pixels.par_iter().map(build).collect::<Vec<_>>(), || light_images(scene, &stamps, previous)),
     );
-    super::check(cancel)?;
+    super::cancel::check(cancel)?;
     let (loaded, trouble) = loaded;
     diagnostics.extend(trouble.map(|trouble| Diagnostic::warning(&Origin::new("texture cache"), trouble)));
     let loaded = wanted.iter().map(|w| (w.texture, w.tile.unwrap_or(0))).zip(loaded);

@@ -2,7 +2,7 @@
 
 use super::{
     bounds::{Bounds, of_mesh},
-    check,
+    cancel::check,
 };
 use crate::{
     accel::{Blas, Care},

@@ -1,6 +1,6 @@
 //! One view of a compiled scene: camera, filter, window and transport, which change without compiling anything.
 
-use super::{CompiledScene, expressions, light_groups, motion, motion_vectors, samples, shader_passes};
+use super::{compiled::CompiledScene, expressions, light_groups, motion, motion_vectors, samples, shader_passes};
 use crate::{
     antialias::Rule,
     camera::{Aperture, CameraTable, Lens},

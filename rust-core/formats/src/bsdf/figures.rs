@@ -6,7 +6,8 @@ use super::direction::{Direction, spherical, through};
 use super::hemispheres::Hemispheres;
 use super::measured::Measured;
 use super::patches::Band;
-use super::report::{Albedo, Reciprocity, STRATA};
+use super::quadrature::STRATA;
+use super::report::{Albedo, Reciprocity};
 use super::table::{Layout, Table};
 
 /// Polar angles of light that albedo is told for, degrees.

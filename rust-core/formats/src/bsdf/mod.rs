@@ -21,6 +21,7 @@ mod measured;
 pub mod merl;
 mod patches;
 mod pbrdf;
+mod quadrature;
 mod report;
 mod resample;
 mod rgl;

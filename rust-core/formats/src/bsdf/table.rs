@@ -5,7 +5,7 @@ use super::colour::Channels;
 use super::coordinates::{Coordinates, MOST_AXES};
 use super::direction::Direction;
 use super::hemispheres::Hemispheres;
-use super::report::{STRATA, quadrature};
+use super::quadrature::{STRATA, quadrature};
 use crate::error::{FormatError, Result};
 
 /// Valid cells that weigh less than that together are an angle's rounding, not a neighbourhood.

@@ -2,9 +2,9 @@
 
 use crate::state::chunk::ChunkContext;
 use crate::state::columns::gather3;
-use crate::state::passed::{PassedLanes, StraightOn};
+use crate::state::passed::PassedLanes;
 use crate::state::rays::RayLanes;
-use crate::state::vertex::Vertex;
+use crate::state::vertex::{StraightOn, Vertex};
 use gonio_simd::{F, Lanes};
 
 /// The rays of paths beyond what they have met. They stay the rays that they are: started anew off the surface, they would miss what lies on it.

@@ -1,6 +1,5 @@
 //! Hits that rays have passed, which go straight on through surfaces: items of four words, a [`Passed`] each.
 
-use crate::state::rays::RayLanes;
 use bytemuck::{cast_slice, cast_slice_mut};
 use gonio_accel::{BEFORE_EDGE, NONE, Passed};
 use gonio_simd::{Column, F, Lanes, M, U};
@@ -35,15 +34,6 @@ impl<L: Lanes> PassedLanes<L> {
         let on_edge = u.le(0.0) | v.le(0.0) | (u + v).ge(BEFORE_EDGE);
         [self.t, F::from_bits(self.instance), F::from_bits(self.primitive), F::from_bits(u.lanes().u(1).keep_if(on_edge))]
     }
-}
-
-/// A register of rays that go straight on.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct StraightOn<L: Lanes> {
-    pub(crate) ray: RayLanes<L>,
-    /// Of the cone where the rays start.
-    pub(crate) width: F<L>,
-    pub(crate) passed: PassedLanes<L>,
 }
 
 /// What each ray has passed; nobody pays for it before one has.

@@ -2,7 +2,7 @@
 
 use crate::geometry::{ShadowSegment, offset_ray_origin, shadow_ray_from, shadow_ray_to};
 use crate::state::flag;
-use crate::state::passed::StraightOn;
+use crate::state::passed::PassedLanes;
 use crate::state::path_core::PathCore;
 use crate::state::paths::{PathLanes, PreviousLanes};
 use crate::state::rays::RayLanes;
@@ -69,6 +69,15 @@ impl<L: Lanes> Interaction<L> {
 #[inline(always)]
 fn shadow_ray<L: Lanes>(to: ShadowSegment<L>) -> RayLanes<L> {
     RayLanes { origin: to.origin, direction: to.direction, t_min: to.t_max.lanes().f(0.0), t_max: to.t_max }
+}
+
+/// A register of rays that go straight on.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct StraightOn<L: Lanes> {
+    pub(crate) ray: RayLanes<L>,
+    /// Of the cone where the rays start.
+    pub(crate) width: F<L>,
+    pub(crate) passed: PassedLanes<L>,
 }
 
 /// One register of path vertices: what shading, NEE and scattering read of a hit.

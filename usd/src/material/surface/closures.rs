@@ -1,9 +1,10 @@
 //! Surfaces that are put together from closures: MaterialX's `surface`, `surface_unlit` and mixes, with the distributions of its physically based
 //! library (MaterialX 1.38 and 1.39, "Physically Based Shading Nodes"), and Arnold's mixes.
 
+use super::convert as convert_surface;
 use super::layers::sum;
 use super::lobes::diffuse;
-use super::{convert as convert_surface, shining, straight, weighted, with_opacity};
+use super::parts::{shining, straight, weighted, with_opacity};
 use crate::material::emit::{binary, is_constant, mix, multiply, scalar, subtract};
 use crate::material::network::{Network, Shader};
 use crate::material::neutral::Source;

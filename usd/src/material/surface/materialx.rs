@@ -1,7 +1,7 @@
 //! MaterialX's surface shaders as parameters of the surface block. Arnold's of the same names have the same parameters.
 
-use super::cut_by;
 use super::lobes::direction;
+use super::parts::cut_by;
 use crate::material::emit::{component, constant_scalar, is_constant, luminance, multiply, scalar};
 use crate::material::network::{Network, Shader};
 use gonio::scene::{Closure, Input, Model, NodeId, Operation};

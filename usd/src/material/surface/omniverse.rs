@@ -1,6 +1,6 @@
 //! Omniverse's materials, whose code is in MDL files: `OmniPBR` with its variants and `OmniGlass`.
 
-use super::cut_by;
+use super::parts::cut_by;
 use crate::material::emit::{binary, colour, component, is_constant, luminance, mix, multiply, scalar, subtract};
 use crate::material::network::{Network, Shader};
 use crate::material::neutral::{Source, Value};

@@ -1,6 +1,6 @@
 //! UsdPreviewSurface as parameters of the surface block, by the UsdPreviewSurface specification.
 
-use super::{cut_by, straight, weighted};
+use super::parts::{cut_by, straight, weighted};
 use crate::material::emit::{binary, constant_scalar, is_constant, multiply, scalar, subtract};
 use crate::material::network::{Network, Shader};
 use crate::material::usd_nodes::tangent_normal;

@@ -1,6 +1,7 @@
 //! RealityKit's surfaces, as Reality Composer and its exporters write them: the lit one has UsdPreviewSurface's parameters, the other shines.
 
-use super::{cut_by, preview_surface, shining};
+use super::parts::{cut_by, shining};
+use super::preview_surface;
 use crate::material::emit::{multiply, scalar};
 use crate::material::network::{Network, Shader};
 use gonio::scene::Closure;

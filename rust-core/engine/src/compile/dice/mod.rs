@@ -3,7 +3,7 @@
 mod made;
 mod rate;
 
-use super::check;
+use super::cancel::check;
 use crate::{
     error::{Diagnostic, Result},
     mesh::{DiceLimits, Undiced, dice},

@@ -1,7 +1,7 @@
 //! How far corners move: graphs run over chunks of them, and what they give carried to the mesh's space.
 
 use super::super::{
-    check,
+    cancel::check,
     geometry::{append_mesh, pad},
     instances::append_instances,
     primvars::at_corner,

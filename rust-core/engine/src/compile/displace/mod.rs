@@ -9,7 +9,7 @@ mod kept;
 mod moved;
 mod recipe;
 
-use super::{check, materials, textures::CompiledTextures};
+use super::{cancel::check, materials, textures::CompiledTextures};
 use crate::{
     error::{Diagnostic, Result},
     scene::{MeshId, Scene},

@@ -13,7 +13,7 @@ use core::f64::consts::PI;
 use super::direction::spherical;
 use super::hemispheres::Hemispheres;
 use super::measured::Measured;
-use super::report::quadrature;
+use super::quadrature::quadrature;
 use crate::error::{FormatError, Result};
 use model::{Model, Shape};
 use observations::Observations;

@@ -3,7 +3,7 @@
 use core::f64::consts::{PI, TAU};
 
 use super::super::direction::{Direction, through};
-use super::super::report::quadrature;
+use super::super::quadrature::quadrature;
 use super::super::sampling::Sampler;
 use super::Random;
 

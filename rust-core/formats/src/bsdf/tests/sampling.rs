@@ -1,7 +1,7 @@
 //! Samplers against their densities, for every kind of measurement.
 
 use super::super::direction::{Direction, spherical, through};
-use super::super::report::quadrature;
+use super::super::quadrature::quadrature;
 use super::super::{
     Axis, Band, Channels, Coordinates, Grid, HalfVectorTable, Hemispheres, Layout, Measured, Mode, Resolution, Rgl, RglGrid, Sampler,
     Table, read,

@@ -1,0 +1,41 @@
+//! What surfaces look like: images, measured BSDFs and materials.
+
+use super::{
+    compiled::Kept,
+    displace::Laid,
+    materials,
+    measured::{self, CompiledMeasured},
+    primvars,
+    textures::{self, CompiledTextures},
+};
+use crate::{
+    error::{Diagnostic, Result},
+    scene::Scene,
+    transport::MaterialTable,
+};
+use std::sync::atomic::AtomicBool;
+
+/// All of a scene.
+#[derive(Debug)]
+pub(super) struct Looks {
+    pub(super) textures: CompiledTextures,
+    pub(super) measured: CompiledMeasured,
+    /// Names of the primvars that programs read.
+    pub(super) names: Vec<String>,
+    pub(super) materials: MaterialTable,
+}
+
+impl Looks {
+    pub(super) fn compile(scene: &Scene, kept: &Kept, cancel: &AtomicBool, diagnostics: &mut Vec<Diagnostic>) -> Result<Self> {
+        let textures = textures::compile(scene, &kept.images, cancel, diagnostics)?;
+        let measured = measured::compile(scene, &kept.measured, diagnostics);
+        let names = primvars::used_names(scene, &measured);
+        let materials = materials::compile(scene, &textures, &measured, &names, diagnostics)?;
+        Ok(Self { textures, measured, names, materials })
+    }
+
+    /// What displacement reads.
+    pub(super) fn laid(&self) -> Laid<'_> {
+        Laid { textures: &self.textures, materials: &self.materials, names: &self.names }
+    }
+}
