@@ -11,7 +11,7 @@ import numpy as np
 from ..units import LUMENS_PER_WATT
 from .cubic_table import cubic_table
 from .material.inputs import carried, hit
-from .material.translator import value_node
+from .material.registry import value_node
 
 # What makes a lamp of 1 W have the file's candela.
 WATTS_OF_CANDELA = 4.0 * pi / LUMENS_PER_WATT

@@ -10,7 +10,7 @@ from mathutils import Matrix
 
 from .material.inputs import GENERATED, direction
 from .material.textures import coordinates, equirectangular
-from .material.translator import value_node
+from .material.registry import value_node
 from .material.vectors import transform3d
 from .sky_on_surface import formula, table
 

@@ -149,7 +149,7 @@ def test_nodes_that_look_around_are_steps_and_those_that_fail_have_a_value(tmp_p
     assert "RoundedNormal" in description["graph"]["nodes"][number]["operation"]
     failing = tree.nodes.new("ShaderNodeGamma")
     tree.links.new(failing.outputs[0], shader.inputs["Coat Tint"])
-    values = __import__("gonio_extension.export.material.translator", fromlist=["VALUES"]).VALUES
+    values = __import__("gonio_extension.export.material.registry", fromlist=["VALUES"]).VALUES
     values["ShaderNodeGamma"] = lambda *_: 1 / 0
     shader.inputs["Coat Weight"].default_value = 1.0
     failing.inputs["Color"].default_value = (0.3, 0.3, 0.3, 1.0)

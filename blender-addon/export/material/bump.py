@@ -3,7 +3,7 @@
 
 from .inputs import normal_of
 from .sockets import input_socket
-from .translator import value_node
+from .registry import value_node
 
 # The share of a pixel between two heights where nothing else is said.
 USUAL_WIDTH = 0.1

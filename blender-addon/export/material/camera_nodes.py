@@ -3,7 +3,7 @@
 
 from ..surroundings import CAMERA, Eye
 from .inputs import applied, direction, hit
-from .translator import value_node
+from .registry import value_node
 
 # Looks along +z from the world's origin: before there is a camera.
 NO_CAMERA = Eye(((1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0)), None)

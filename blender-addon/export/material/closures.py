@@ -5,7 +5,7 @@ from ...units import LUMENS_PER_WATT
 from .inputs import hit
 from .sockets import input_socket
 from .tangent_nodes import radial_tangent
-from .translator import closure_node
+from .registry import closure_node
 
 DISTRIBUTIONS = {"MULTI_GGX": "MultiGgx", "GGX": "Ggx", "BECKMANN": "Beckmann", "ASHIKHMIN_SHIRLEY": "AshikhminShirley"}
 SUBSURFACE = {

@@ -2,7 +2,7 @@
 """Colour nodes: Mix with its blend modes, ramps, curves (of vectors too), hue, brightness, separate and combine, blackbody."""
 
 from ..colour_management import to_rec709
-from .translator import value_node
+from .registry import value_node
 
 # Rows of the tables of ramps and curves, as Cycles has them.
 TABLE_SIZE = 257

@@ -5,7 +5,7 @@ from .bump import bent_by
 from .inputs import UV, carried, hit, normal_of
 from .sockets import input_socket
 from .tangent_nodes import tangent_of
-from .translator import value_node
+from .registry import value_node
 
 
 def displace(t, end, material):

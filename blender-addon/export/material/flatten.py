@@ -4,7 +4,7 @@
 from ...units import LUMENS_PER_WATT
 from .closures import closure
 from .sockets import ABSENT, KINDS, THROUGH, follow, group_output
-from .translator import CLOSURES
+from .registry import CLOSURES
 
 # More closures than this in one material are left out: the surface would not be shaded in reasonable time.
 MOST_CLOSURES = 64

@@ -3,7 +3,7 @@
 
 from .closures import closure
 from .inputs import STRAND, carried, hit
-from .translator import closure_node, value_node
+from .registry import closure_node, value_node
 
 # Absorption of the two pigments of hair in linear Rec.709, by one over the radius, as Cycles has it.
 EUMELANIN, PHEOMELANIN = (0.506, 0.841, 1.653), (0.343, 0.733, 1.924)

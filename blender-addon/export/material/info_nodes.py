@@ -2,7 +2,7 @@
 """What the Object, Particle, Point and Volume Info nodes know of a placement; the last two know nothing of meshes."""
 
 from .inputs import COLOUR, INDEX, LOCATION, PARTICLE, RANDOM
-from .translator import value_node
+from .registry import value_node
 
 
 @value_node("ShaderNodeObjectInfo")

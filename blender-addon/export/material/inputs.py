@@ -2,10 +2,12 @@
 """Input nodes: constants, attributes, what is known of the object, the hit and the ray."""
 
 from ..surroundings import LAYER, OBJECT
-from .translator import POSITION, value_node
+from .registry import value_node
 
 # Names of values that every mesh or placement can give; the space keeps them apart from names of attributes.
 UV = "st"
+# The points of the mesh itself.
+POSITION = "blender position"
 GENERATED = "blender generated"
 RANDOM = "blender random"
 LOCATION = "blender location"

@@ -2,7 +2,7 @@
 """What shading knows of the ray: Light Path and Light Falloff."""
 
 from .camera_nodes import eye, in_camera
-from .translator import value_node
+from .registry import value_node
 
 # The outputs of Light Path that shading knows.
 LIGHT_PATH = {

@@ -3,7 +3,8 @@
 
 from math import pi
 
-from .translator import value_node
+from .colour import curve
+from .registry import value_node
 
 
 def _round(a):
@@ -137,7 +138,5 @@ def map_range(t, node, context, output):
 
 @value_node("ShaderNodeFloatCurve")
 def float_curve(t, node, context, output):
-    from .colour import curve
-
     value, factor = t.input(node, "Value", context), t.input(node, "Factor", context, 1.0)
     return value.mix(t.graph.add(curve(node.mapping, [0]), value, kind="VALUE"), factor)

@@ -5,7 +5,7 @@ import gonio
 
 from ...nodes.measured import GonioShaderNodeMeasured, file_of
 from .closures import closure, normal_node
-from .translator import closure_node
+from .registry import closure_node
 
 
 @closure_node(GonioShaderNodeMeasured.bl_idname)

@@ -3,7 +3,7 @@
 
 from ..surroundings import OCCLUSION
 from .inputs import hit, normal_of
-from .translator import value_node
+from .registry import value_node
 
 # How far Cycles looks for occlusion in a scene without a world.
 FARTHEST = 10.0

@@ -4,7 +4,7 @@
 from ...units import LUMENS_PER_WATT
 from .closures import DISTRIBUTIONS, closure, normal_node, subsurface_method, tangent_node, thin_film
 from .inputs import hit
-from .translator import closure_node
+from .registry import closure_node
 
 # Sockets that go over as they are: the core's name, the socket's, and the value where this Blender has no such socket.
 COPIED = (

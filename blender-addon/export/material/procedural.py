@@ -3,7 +3,7 @@
 
 from .inputs import GENERATED, direction
 from .textures import coordinates
-from .translator import value_node
+from .registry import value_node
 
 NOISES = {
     "FBM": "Fbm",

@@ -2,7 +2,7 @@
 """Directions in the surface, and normals given by them: Normal Map and Tangent."""
 
 from .inputs import GENERATED, SMOOTH_NORMAL, TANGENT, UV, carried, hit
-from .translator import value_node
+from .registry import value_node
 
 
 @value_node("ShaderNodeNormalMap")

@@ -10,7 +10,7 @@ from .box_projection import box_projection
 from .image_filter import clipped_alpha, decoded, divided, multiplied_encoded
 from .inputs import GENERATED, UV, direction, hit
 from .sockets import follow, input_socket
-from .translator import value_node
+from .registry import value_node
 from .vectors import mapping_matrix, transform3d
 
 WRAP = {"REPEAT": "Repeat", "EXTEND": "Clamp", "CLIP": "Black", "MIRROR": "Mirror"}

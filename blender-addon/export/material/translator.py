@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From one Blender node tree to graph values; the handlers of single nodes register themselves here."""
+"""From one Blender node tree to graph values."""
 
 import sys
 from contextlib import contextmanager
@@ -9,10 +9,10 @@ from gonio.graph import Graph, Value
 
 from ...report import words_of
 from ..colour_management import to_rec709
+from .fallback import stand_in
+from .inputs import POSITION
+from .registry import VALUES
 from .sockets import ABSENT, KINDS, Context, follow, input_socket
-
-# The points of the mesh itself, as a value that each can give.
-POSITION = "blender position"
 
 # More nodes than this in a row are not followed.
 DEEPEST = 1000
@@ -25,31 +25,6 @@ CALLS_A_NODE = 12
 
 # Weights of the luminance of linear Rec.709 in Cycles, as measured, before Blender 5.0 and since.
 LUMINANCE = ((0.212674, 0.7151516, 0.0721754), (0.2126391, 0.7151691, 0.0721928))
-
-# bl_idname of a node -> function(translator, node, context, output socket) -> Value
-VALUES = {}
-# bl_idname of a shader node -> function(translator, node, context) -> list of closures without their weights; None for what stands inside
-CLOSURES = {}
-
-
-def value_node(*names):
-    """Registers a function that computes a node's outputs."""
-
-    def register(function):
-        VALUES.update(dict.fromkeys(names, function))
-        return function
-
-    return register
-
-
-def closure_node(*names):
-    """Registers a function that turns a shader node into closures."""
-
-    def register(function):
-        CLOSURES.update(dict.fromkeys(names, function))
-        return function
-
-    return register
 
 
 @contextmanager
@@ -220,8 +195,6 @@ class Translator:
 
     def unsupported(self, node, output, context):
         """The nearest sane value of a node that cannot be computed; the report has one line for a node, whichever outputs are used."""
-        from .fallback import stand_in
-
         value, what = stand_in(self, node, output, context)
         if (context, node.name) not in self._stood_in:
             self._stood_in.add((context, node.name))

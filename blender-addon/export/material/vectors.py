@@ -3,9 +3,10 @@
 
 from mathutils import Euler, Matrix, Vector
 
+from .camera_nodes import eye
 from .inputs import applied, carried
 from .maths import wrap
-from .translator import value_node
+from .registry import value_node
 
 
 def transform3d(t, value, matrix):
@@ -145,8 +146,6 @@ def vector_transform(t, node, context, output):
         # Nothing has a space of its own there, and normals that meet one stay as they are.
         start, end = ("WORLD" if space == "OBJECT" else space for space in (start, end))
     if "CAMERA" in (start, end):
-        from .camera_nodes import eye
-
         seen_by = eye(t)
         if seen_by is None:
             return None

@@ -3,7 +3,7 @@
 
 from .inputs import TRIANGLE, carried, hit
 from .tangent_nodes import of_mesh
-from .translator import value_node
+from .registry import value_node
 
 
 @value_node("ShaderNodeWireframe")

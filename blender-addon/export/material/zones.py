@@ -2,7 +2,7 @@
 """Zones, bundles and switches of shader trees (Blender 5.0 on): followed like links, as none of them computes anything itself."""
 
 from .sockets import ITERATION, THROUGH, follow, input_socket
-from .translator import value_node
+from .registry import value_node
 
 # More turns of a repeat zone than this are left out.
 MOST_TURNS = 512
