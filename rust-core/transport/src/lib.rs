@@ -4,7 +4,7 @@
 //! AOVs by slot.
 //!
 //! Read `schedule/path` first: it calls the wavefront stages in order, for a [`Tracer`]. `stage` has a file for each, `state` the columns that wait
-//! between them. `accumulate` adds to the sums. `tables` is what no stage changes. The design is that of pbrt's `WavefrontPathIntegrator`
+//! between them. `accumulate` adds to the sums. `tables` is what no stage changes. `words` are the bits that all of them read. The design is that of pbrt's `WavefrontPathIntegrator`
 //! (Physically Based Rendering, 4th edition, chapter 15), on SIMD lanes in place of a GPU's threads.
 
 mod accumulate;
@@ -16,13 +16,14 @@ mod stage;
 mod state;
 mod statistics;
 mod tables;
+mod words;
 
 pub use accumulate::catcher_sums::CatcherSums;
 pub use accumulate::deep_sums::{DeepPart, DeepSums};
 pub use accumulate::deposit::Deposits;
 pub use accumulate::effort::Effort;
 pub use accumulate::guiding_notes::GuidingNotes;
-pub use accumulate::light_sums::{LightSums, code};
+pub use accumulate::light_sums::LightSums;
 pub use accumulate::matte_sums::{MatteSums, Met};
 pub use accumulate::shader_sums::ShaderSums;
 pub use accumulate::tile_sums::TileSums;
@@ -45,6 +46,7 @@ pub use state::rays::Rays;
 pub use state::workspace::Workspace;
 pub use state::workspaces::Workspaces;
 pub use statistics::{LANE_BOUNCES, LaneCount, LaneStage, Stage, Statistics};
+pub use tables::Tables;
 pub use tables::bodies::{Bodies, Body};
 pub use tables::bright_places::{ArrivalCells, BrightPlaces};
 pub use tables::expressions::{KIND_BITS, PathExpressions};
@@ -58,4 +60,4 @@ pub use tables::photons::{Bright, OFF_PLANE, Photon, Photons};
 pub use tables::shader_passes::{ShaderOutput, ShaderOutputs, ShaderPasses};
 pub use tables::shutter::{Rolling, Shutter};
 pub use tables::transport::{Distance, Estimator, FirstLight, Limits, Mist, Passes, PathFilter, Transport};
-pub use tables::{Tables, ray_mask};
+pub use words::{code, ray_mask};

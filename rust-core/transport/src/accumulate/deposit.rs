@@ -2,11 +2,10 @@
 
 use crate::accumulate::add::add_rgb;
 use crate::accumulate::guiding_notes::GuidingNotes;
-use crate::accumulate::light_sums::code;
 use crate::accumulate::tile_sums::TileSums;
-use crate::state::flag;
 use crate::tables::light_groups::{GroupPasses, UNSEEN};
 use crate::tables::transport::{PathFilter, Transport};
+use crate::words::{code, flag};
 use gonio_light::Arrival;
 use gonio_simd::{Lanes, M, Rgb, Spectrum, U};
 

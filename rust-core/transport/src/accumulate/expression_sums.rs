@@ -1,9 +1,9 @@
 //! Light by light path expressions: each contribution goes to those that ask for its path.
 
 use crate::accumulate::deposit::{Contribution, Deposits, Source, to_film};
-use crate::accumulate::light_sums::{LightSums, code};
-use crate::state::flag;
+use crate::accumulate::light_sums::LightSums;
 use crate::tables::expressions::{PathExpressions, scattering};
+use crate::words::{code, flag};
 use gonio_camera::sampler::BATCH;
 use gonio_simd::{Lanes, M, Rgb, U};
 

@@ -8,9 +8,9 @@
 use crate::accumulate::add::add_rgb;
 use crate::accumulate::deposit::to_film;
 use crate::accumulate::tile_sums::TileSums;
-use crate::state::flag;
 use crate::state::vertex::Vertex;
 use crate::tables::transport::{PathFilter, Transport};
+use crate::words::flag;
 use gonio_bsdf::Lobes;
 use gonio_camera::sampler::BATCH;
 use gonio_simd::{Lanes, M, U};

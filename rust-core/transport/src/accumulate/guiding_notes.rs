@@ -1,9 +1,9 @@
 //! What the guiding field learns from: where paths went on from diffuse lobes, and the light that they found from there on.
 
 use crate::geometry::NONE;
-use crate::state::flag;
 use crate::state::paths::Paths;
 use crate::tables::guiding::GuidingNote;
+use crate::words::{event, flag};
 use gonio_camera::sampler::hash;
 use gonio_simd::{Lanes, M, One, Spectrum, U};
 
@@ -38,7 +38,7 @@ impl GuidingNotes {
         for path in 0..paths.count {
             let flags = paths.flags(path);
             let bounces = flags >> flag::BOUNCE_SHIFT;
-            let diffuse = flags & flag::DELTA == 0 && flags >> flag::LAST_SHIFT & 3 == flag::event::DIFFUSE;
+            let diffuse = flags & flag::DELTA == 0 && flags >> flag::LAST_SHIFT & 3 == event::DIFFUSE;
             if bounces == 0 || !diffuse {
                 continue;
             }

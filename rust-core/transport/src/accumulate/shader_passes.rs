@@ -3,10 +3,10 @@
 use crate::accumulate::add::add;
 use crate::accumulate::tile_sums::TileSums;
 use crate::graph::{OutputColumns, Program};
-use crate::state::flag;
 use crate::state::paths::Paths;
 use crate::state::vertex::Vertex;
 use crate::tables::shader_passes::ShaderPasses;
+use crate::words::flag;
 use gonio_camera::sampler::pixel;
 use gonio_simd::{Lanes, M};
 

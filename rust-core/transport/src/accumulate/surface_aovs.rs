@@ -2,8 +2,8 @@
 
 use crate::accumulate::add::{add, add_rgb};
 use crate::accumulate::deposit::to_film;
-use crate::accumulate::light_sums::code;
 use crate::accumulate::tile_sums::TileSums;
+use crate::words::code;
 use gonio_simd::{Column, F, Lanes, M, Rgb, Spectrum, U, Vec3};
 
 /// A first surface, by lane.

@@ -1,7 +1,7 @@
 //! What is known of the ray that shades a hit (Cycles' `svm_node_light_path`).
 
 use super::SurfaceColumns;
-use crate::state::flag::{self, event};
+use crate::words::{counts, event, flag};
 use gonio_nodes::LightPathValue;
 use gonio_simd::{F, Lanes};
 
@@ -14,7 +14,7 @@ pub(super) fn light_path<L: Lanes>(l: L, points: &SurfaceColumns, at: usize, val
     let last = (flags >> flag::LAST_SHIFT) & 3;
     let scattered = !(camera | shadow);
     // Bounces of a kind stand in a byte each.
-    let depth = |kind: u32| ((l.load_integers(&points.ray_counts, at) >> (kind * 8)) & 255).to_float();
+    let depth = |kind: u32| counts::of(l.load_integers(&points.ray_counts, at), kind).to_float();
     let known = match value {
         LightPathValue::IsCameraRay => camera,
         LightPathValue::IsShadowRay => shadow,

@@ -1,7 +1,7 @@
 //! The rays of steps that look around hits: columns of one sample of a piece.
 
 use crate::state::rays::{RayLanes, Rays};
-use crate::tables::ray_mask;
+use crate::words::ray_mask;
 use gonio_accel::{Hits, Tlas, TransparentHit};
 use gonio_nodes::CHUNK;
 use gonio_simd::{Column, Execution, Lanes, PADDING, Vec3};

@@ -11,13 +11,13 @@ use crate::stage::sort::list_materials;
 use crate::stage::surface::{ChunkRays, ChunkSource};
 use crate::stage::{intersect, shadow};
 use crate::state::chunk::{ChunkColumns, ChunkContext};
-use crate::state::flag;
 use crate::state::paths::Paths;
 use crate::state::queue::shadow_rays::hits_together;
 use crate::state::sample::SampleContext;
 use crate::state::workspace::Workspace;
 use crate::statistics::{LaneStage, Stage};
 use crate::tables::Tables;
+use crate::words::flag;
 use gonio_simd::{Lanes, dispatch};
 use std::{ops::Range, time::Instant};
 

@@ -1,12 +1,12 @@
 //! Emission: light paths start at lights, or with rays of a table (pbrt's `Light::SampleLe`).
 
-use crate::state::flag;
 use crate::state::light_paths::LightStarts;
 use crate::state::path_core::PathCore;
 use crate::state::paths::{PathLanes, Paths, PreviousLanes};
 use crate::state::rays::RayLanes;
 use crate::state::sample::SampleContext;
 use crate::tables::Tables;
+use crate::words::flag;
 use gonio_bsdf::parameter::spectrum;
 use gonio_camera::sampler::{BATCH, dimension};
 use gonio_light::{EmissionSampler, EmittedRay};

@@ -1,7 +1,6 @@
 //! Light paths at a register of points: flux arrives, may be seen by the camera, and is scattered on by the adjoint BSDF.
 
 use crate::accumulate::deposit::{Deposits, code_of_found, to_film};
-use crate::accumulate::light_sums::code;
 use crate::stage::integrator::Integrator;
 use crate::stage::measure::MeasureContext;
 use crate::stage::merge::in_share;
@@ -10,7 +9,6 @@ use crate::stage::scatter::{send_on, without_cut_outs};
 use crate::stage::shade::{normals, way_numbers};
 use crate::stage::volume;
 use crate::state::chunk::ChunkContext;
-use crate::state::flag::{self, event};
 use crate::state::light_paths::ArrivalLanes;
 use crate::state::paths::Paths;
 use crate::state::queue::Queues;
@@ -19,6 +17,7 @@ use crate::state::rays::RayLanes;
 use crate::state::vertex::Vertex;
 use crate::tables::material::{SurfaceMaterial, parameter_values};
 use crate::tables::photons::Bright;
+use crate::words::{code, event, flag};
 use crate::{geometry::shadow_ray_to, kernels};
 use gonio_bsdf::{BsdfSample, Hits, LightHits, Lobes};
 use gonio_camera::sampler::dimension;

@@ -1,10 +1,10 @@
 //! Ray generation: a camera ray with its ray cone, the start of a path, for every slot of a batch.
 
 use crate::stage::volume::filling;
-use crate::state::flag;
 use crate::state::path_core::PathCore;
 use crate::state::paths::{PathLanes, Paths};
 use crate::state::rays::RayLanes;
+use crate::words::flag;
 use gonio_camera::Placement;
 use gonio_camera::sampler::Runs;
 use gonio_camera::sampler::morton_even;

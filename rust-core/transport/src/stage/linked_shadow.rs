@@ -4,8 +4,9 @@
 
 use crate::state::queue::shadow_rays::ShadowRays;
 use crate::state::queue::shadow_trace::{LinkedTrace, ShadowTrace};
+use crate::tables::Tables;
 use crate::tables::transport::Transport;
-use crate::tables::{Tables, ray_mask};
+use crate::words::ray_mask;
 
 /// Finds which rays are blocked by what blocks their light, and what the others pass.
 pub(crate) fn occlude(tables: &Tables, transport: &Transport, coherent: bool, shadows: &ShadowRays, trace: &mut ShadowTrace) {

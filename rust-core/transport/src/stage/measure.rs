@@ -7,7 +7,6 @@ use crate::kernels;
 use crate::stage::merge::{Found, irradiance};
 use crate::stage::nee::{Along, gone_straight, send};
 use crate::state::columns::load3;
-use crate::state::flag::{self, event};
 use crate::state::path_core::PathCore;
 use crate::state::paths::{PathLanes, Paths};
 use crate::state::queue::measure_points::MeasurePoints;
@@ -16,6 +15,7 @@ use crate::state::sample::SampleContext;
 use crate::state::vertex::{CONE_PER_ROUGHNESS, Interaction};
 use crate::tables::Tables;
 use crate::tables::transport::{FirstLight, Transport};
+use crate::words::{counts, event, flag};
 use gonio_camera::sampler::dimension;
 use gonio_light::{FixedLightSample, LightSample, SampleWeight};
 use gonio_simd::{F, Frame, Lanes, M, Vec3};
@@ -151,7 +151,7 @@ fn start<L: Lanes>(l: L, point: &MeasuredPoint<L>, u: [F<L>; 2], brought: u32, n
         throughput: point.core.throughput * PI,
         spread: l.f(CONE_PER_ROUGHNESS),
         flags: l.u(flag::NON_SPECULAR_SEEN | flag::ROUGH | brought | (1 << flag::BOUNCE_SHIFT)),
-        counts: l.u(1),
+        counts: l.u(counts::DIFFUSE),
         ..point.core
     };
     next.append(&PathLanes::start(point.at.spawn_ray(direction), core).leaving(point.at.as_previous(), local.z * FRAC_1_PI), alive);

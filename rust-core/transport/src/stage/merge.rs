@@ -1,14 +1,13 @@
 //! Vertex merging (photon mapping): camera paths take up the photons about their vertices, but for those that the camera sees directly.
 
 use crate::accumulate::deposit::{Contribution, Deposits, Source, to_film};
-use crate::accumulate::light_sums::code;
 use crate::kernels;
 use crate::state::chunk::ChunkContext;
-use crate::state::flag;
 use crate::state::vertex::Vertex;
 use crate::tables::bright_places::BrightPlaces;
 use crate::tables::light_groups::UNSEEN;
 use crate::tables::photons::PhotonMap;
+use crate::words::{code, flag};
 use gonio_bsdf::Lobes;
 use gonio_camera::sampler::dimension;
 use gonio_simd::{F, Lanes, M, PADDING, Spectrum, U, Vec3};

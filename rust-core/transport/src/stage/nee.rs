@@ -12,7 +12,8 @@ use crate::state::queue::shadow_rays::{ShadowLanes, ShadowRays};
 use crate::state::rays::RayLanes;
 use crate::state::vertex::{Interaction, Vertex};
 use crate::tables::Tables;
-use crate::tables::transport::{Limits, Transport};
+use crate::tables::transport::Transport;
+use crate::words::counts;
 use gonio_bsdf::Lobes;
 use gonio_light::{LightSample, SampleWeight};
 use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
@@ -130,7 +131,7 @@ pub(crate) fn seen_share<L: Lanes>(chunk: &ChunkContext<'_, L>, [diffuse, glossy
 /// How many surfaces paths have gone straight through, where their number is limited.
 #[inline(always)]
 pub(crate) fn gone_straight<L: Lanes>(tables: &Tables, transport: &Transport, counts: U<L>) -> Option<U<L>> {
-    if tables.any_transparent && transport.limits.counts_straight() { Some(Limits::straight(counts)) } else { None }
+    if tables.any_transparent && transport.limits.counts_straight() { Some(counts::straight(counts)) } else { None }
 }
 
 /// What a shadow ray takes along; see [`ShadowLanes`].

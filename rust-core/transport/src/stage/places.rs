@@ -5,13 +5,13 @@
 use crate::geometry::{NONE, SurfacePoint};
 use crate::stage::covered::{BEFORE, BEHIND, covered_lanes};
 use crate::stage::generate::TileArea;
-use crate::state::flag;
 use crate::state::nearest::NearestHits;
 use crate::state::path_core::PathCore;
 use crate::state::paths::{PathLanes, Paths};
 use crate::state::queue::measure_points::{MeasureLanes, MeasurePoints};
 use crate::state::rays::RayLanes;
-use crate::tables::{Tables, ray_mask};
+use crate::tables::Tables;
+use crate::words::{flag, ray_mask};
 use gonio_accel::Hits;
 use gonio_camera::sampler::{CAPACITY, Runs, Sampler, dimension, morton_even};
 use gonio_simd::{Column, F, Lanes, M, U, Vec3, padded};

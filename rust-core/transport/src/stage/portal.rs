@@ -3,11 +3,11 @@
 //! No light can be sampled through a portal, so what a path finds behind it has its whole weight. Shadow rays end at portals.
 
 use crate::state::chunk::ChunkContext;
-use crate::state::flag;
 use crate::state::path_core::PathCore;
 use crate::state::paths::{PathLanes, Paths, PreviousLanes};
 use crate::state::rays::RayLanes;
-use crate::state::vertex::{ONE_STRAIGHT, Vertex};
+use crate::state::vertex::Vertex;
+use crate::words::{counts, flag};
 use gonio_bsdf::Portal;
 use gonio_simd::{F, Lanes, M, Vec3};
 
@@ -34,7 +34,7 @@ pub(crate) fn pass_on<L: Lanes>(
     let receiver = chunk.paths.previous(chunk.l, point.path).receiver;
     // Light paths find no way back through it.
     let flags = (point.core.flags & !flag::LIGHT_BROUGHT) | (flag::DELTA | flag::ROUGH);
-    let core = PathCore { throughput, flags, counts: point.core.counts + ONE_STRAIGHT, ..point.core };
+    let core = PathCore { throughput, flags, counts: point.core.counts + counts::STRAIGHT, ..point.core };
     let from = PreviousLanes { position: ray.origin, normal: ray.direction, receiver };
     next.append(&PathLanes::start(ray, core).leaving(from, share), open);
 }

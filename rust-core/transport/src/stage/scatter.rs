@@ -4,13 +4,13 @@ use crate::accumulate::expression_sums::scattering_of;
 use crate::kernels;
 use crate::stage::straight::straight_on;
 use crate::state::chunk::ChunkContext;
-use crate::state::flag::{self, event};
 use crate::state::path_core::PathCore;
 use crate::state::paths::{PathLanes, Paths};
 use crate::state::queue::walks::{WalkLanes, Walks};
 use crate::state::rays::RayLanes;
-use crate::state::vertex::{CONE_PER_ROUGHNESS, ONE_STRAIGHT, Vertex};
+use crate::state::vertex::{CONE_PER_ROUGHNESS, Vertex};
 use crate::tables::material::{SurfaceMaterial, threshold};
+use crate::words::{counts, event, flag};
 use gonio_bsdf::{BsdfSample, Lobes, subsurface::Medium};
 use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
 
@@ -207,7 +207,7 @@ pub(crate) fn send_on<L: Lanes>(
     }
     let non_specular = seen_non_specular(l, point);
     let scattered = flags(chunk, point, sample, non_specular);
-    let counted = sample.diffuse.select(l.u(1), sample.transmitted.select(l.u(1 << 16), l.u(1 << 8)));
+    let counted = sample.diffuse.select(l.u(counts::DIFFUSE), sample.transmitted.select(l.u(counts::TRANSMISSION), l.u(counts::GLOSSY)));
     // What goes straight through a thin wall is still on its way from the vertex before, so that lights seen through it keep their weights.
     let straight = sample.straight;
     let (mut from, mut pdf) = (point.at.as_previous(), sample.pdf);
@@ -226,7 +226,7 @@ pub(crate) fn send_on<L: Lanes>(
         width,
         spread: point.core.spread + sample.roughness * CONE_PER_ROUGHNESS,
         flags: straight.select(point.core.flags | non_specular, scattered),
-        counts: point.core.counts + straight.select(l.u(ONE_STRAIGHT), counted),
+        counts: point.core.counts + straight.select(l.u(counts::STRAIGHT), counted),
         medium: point.media_towards(across, straight, chunk.tables.any_volume),
         ..point.core
     };

@@ -1,9 +1,9 @@
 //! The ways of light paths in one bounce, each from a scattering to the next surface, or out of the scene.
 
 use crate::accumulate::deposit::to_film;
-use crate::state::flag;
 use crate::state::light_paths::LightStarts;
 use crate::state::paths::Paths;
+use crate::words::flag;
 use gonio_accel::{Hits, NONE};
 use gonio_simd::{Lanes, One, Rgb};
 

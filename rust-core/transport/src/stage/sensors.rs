@@ -5,11 +5,11 @@
 
 use crate::stage::generate::TileArea;
 use crate::state::columns::gather3;
-use crate::state::flag;
 use crate::state::path_core::PathCore;
 use crate::state::paths::{PathLanes, Paths};
 use crate::state::queue::measure_points::{MeasureLanes, MeasurePoints};
 use crate::state::rays::RayLanes;
+use crate::words::flag;
 use gonio_bsdf::parameter::spectrum;
 use gonio_camera::sampler::{Runs, TILE, morton_even};
 use gonio_camera::sampler::{Sampler, dimension};

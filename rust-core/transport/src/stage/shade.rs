@@ -6,7 +6,6 @@
 use crate::accumulate::deposit::{Contribution, Deposits, Source, code_of_found};
 use crate::accumulate::expression_sums::with_state;
 use crate::accumulate::guides::{add_guides, is_specular_path};
-use crate::accumulate::light_sums::code;
 use crate::geometry::NONE;
 use crate::kernels::{self, LightHit};
 use crate::stage::catcher;
@@ -15,12 +14,12 @@ use crate::stage::integrator::Integrator;
 use crate::stage::volume;
 use crate::state::chunk::ChunkContext;
 use crate::state::columns::load3;
-use crate::state::flag;
 use crate::state::queue::Queues;
 use crate::state::queue::measure_points::{MeasureLanes, MeasurePoints};
 use crate::state::vertex::{Interaction, Vertex};
 use crate::tables::material::{SurfaceMaterial, parameter_values};
 use crate::tables::transport::PathFilter;
+use crate::words::{code, event, flag};
 use gonio_bsdf::{
     Hits, Lobes, ParameterValues, WAY_NUMBERS,
     normals::{Normals, is_raised},
@@ -90,7 +89,7 @@ fn load_point<L: Lanes>(chunk: &ChunkContext<'_, L>, material: &SurfaceMaterial,
 #[inline(always)]
 fn scattered_diffusely<L: Lanes>(point: &Vertex<L>) -> M<L> {
     let last = (point.core.flags >> flag::LAST_SHIFT) & 3;
-    point.alive & last.eq(flag::event::DIFFUSE) & point.bounces.ne(0)
+    point.alive & last.eq(event::DIFFUSE) & point.bounces.ne(0)
 }
 
 /// What fibres draw their ways inside by, where the material has such.

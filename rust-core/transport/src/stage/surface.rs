@@ -4,11 +4,11 @@
 
 use crate::graph::{Program, SurfaceColumns};
 use crate::state::columns::gather3;
-use crate::state::flag;
 use crate::state::paths::{ConeLanes, Paths, TrackLanes};
 use crate::state::queue::walks::Walks;
 use crate::state::rays::Rays;
 use crate::tables::Tables;
+use crate::words::flag;
 use gonio_accel::{Hits, TransparentHit};
 use gonio_simd::{Column, F, Lanes, PADDING, U, Vec3};
 

@@ -1,11 +1,10 @@
 //! Light paths' own state: the flux that each started with, and what a bounce brings: flux that arrived, escaped or may reach the camera.
 
 use crate::state::columns::{Columns3, append3, columns3};
-use crate::state::flag;
 use crate::state::glow::GlowRoom;
 use crate::state::media::StartRoom;
 use crate::state::queue::shadow_rays::ShadowRays;
-use crate::tables::ray_mask;
+use crate::words::{flag, ray_mask};
 use gonio_camera::sampler::{BATCH, CAPACITY};
 use gonio_simd::{Column, Lanes, M, PADDING, Rgb, Spectrum, SpectrumColumns, U, Vec3, padded};
 

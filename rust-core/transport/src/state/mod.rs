@@ -4,7 +4,6 @@
 
 pub(crate) mod chunk;
 pub(crate) mod columns;
-pub(crate) mod flag;
 pub(crate) mod glow;
 pub(crate) mod light_paths;
 pub(crate) mod material_order;

@@ -11,7 +11,7 @@ pub(crate) struct PathCore<L: Lanes> {
     pub(crate) throughput: Spectrum<L>,
     /// Where contributions go: the pixel's Morton number, plus `BATCH` for paths that measure illuminance. [`crate::stage::catcher`] adds more.
     pub(crate) slot: U<L>,
-    /// What the path has met, bits of [`crate::state::flag`].
+    /// What the path has met, bits of [`crate::words::flag`].
     pub(crate) flags: U<L>,
     /// Bounces so far by kind, a byte each: diffuse, glossy, transmitted, straight through.
     pub(crate) counts: U<L>,

@@ -2,12 +2,11 @@
 //!
 //! Rays lie in plain columns, as the TLAS traverses them. What stages gather of chosen paths lies in items of four words, one load a lane.
 
-use crate::state::flag;
 use crate::state::passed::PassedLanes;
 use crate::state::path_core::PathCore;
 use crate::state::rays::{RayLanes, Rays};
 use crate::state::times::SlotTimes;
-use crate::tables::ray_mask;
+use crate::words::{flag, ray_mask};
 use gonio_camera::sampler::CAPACITY;
 use gonio_simd::{Column, F, Lanes, M, Spectrum, SpectrumColumns, SpectrumItems, U, Vec3, padded};
 

@@ -39,7 +39,7 @@ pub struct Rays {
     pub direction: Columns3,
     pub(crate) t_min: Column,
     pub(crate) t_max: Column,
-    /// Visibility bits, see [`crate::tables::ray_mask`].
+    /// Visibility bits, see [`crate::words::ray_mask`].
     pub(crate) mask: Vec<u8>,
     /// Times of the shutter; empty where nothing moves.
     pub(crate) time: Vec<f32>,

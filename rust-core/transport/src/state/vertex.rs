@@ -1,20 +1,18 @@
 //! A register of path vertices on surfaces (pbrt's `SurfaceInteraction`).
 
 use crate::geometry::{ShadowSegment, offset_ray_origin, shadow_ray_from, shadow_ray_to};
-use crate::state::flag;
 use crate::state::passed::PassedLanes;
 use crate::state::path_core::PathCore;
 use crate::state::paths::{PathLanes, PreviousLanes};
 use crate::state::rays::RayLanes;
 use crate::tables::guiding::Guided;
+use crate::words::{counts, flag};
 use gonio_bsdf::Lobes;
 use gonio_light::LightSample;
 use gonio_simd::{F, Frame, Lanes, M, Spectrum, U, Vec3};
 
 /// Roughness widens a path's ray cone by this much, radians: blurred reflections need no fine texture level.
 pub(crate) const CONE_PER_ROUGHNESS: f32 = 0.3;
-/// One way straight through more in [`PathCore::counts`].
-pub(crate) const ONE_STRAIGHT: u32 = 1 << 24;
 
 /// Where on a surface a path is, and how rays leave there (pbrt's `Interaction`).
 #[derive(Clone, Copy, Debug)]
@@ -158,7 +156,7 @@ impl<L: Lanes> Vertex<L> {
     pub(crate) fn straight_on(&self, on: &StraightOn<L>, before: PreviousLanes<L>, any_volume: bool) -> PathLanes<L> {
         let everywhere = self.alive | !self.alive;
         let medium = self.media_towards(everywhere, everywhere, any_volume);
-        let core = PathCore { width: on.width, counts: self.core.counts + ONE_STRAIGHT, medium, ..self.core };
+        let core = PathCore { width: on.width, counts: self.core.counts + counts::STRAIGHT, medium, ..self.core };
         PathLanes::start(on.ray, core).leaving(before, self.pdf).having_passed(Some(on.passed))
     }
 }

@@ -3,7 +3,6 @@
 //! Schedules own it, and hand each stage the parts that it reads and writes.
 
 use crate::accumulate::deposit::Deposits;
-use crate::accumulate::light_sums::code;
 use crate::accumulate::tile_sums::TileSums;
 use crate::state::chunk::ChunkColumns;
 use crate::state::material_order::MaterialOrder;
@@ -16,6 +15,7 @@ use crate::state::times::SlotTimes;
 use crate::statistics::Statistics;
 use crate::tables::Tables;
 use crate::tables::transport::Transport;
+use crate::words::code;
 use gonio_accel::Hits;
 
 /// All that a worker needs to trace a batch; made once a worker, so that no stage allocates.

@@ -1,6 +1,6 @@
 //! Light path expressions that part classes of light: an automaton whose state each path carries in its flags.
 
-use crate::state::flag;
+use crate::words::flag;
 use gonio_simd::{Lanes, M, U};
 
 /// Scatterings, in the order of the automaton's steps; those that paths sample and those that light samples show are told apart alike.

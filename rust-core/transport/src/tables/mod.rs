@@ -10,7 +10,6 @@ pub(crate) mod material;
 pub(crate) mod matte_names;
 pub(crate) mod motion_vectors;
 pub(crate) mod photons;
-pub mod ray_mask;
 pub(crate) mod shader_passes;
 pub(crate) mod shutter;
 pub(crate) mod transport;

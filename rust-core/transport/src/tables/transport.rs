@@ -1,13 +1,13 @@
 //! Settings of a view that stages read: bounce limits, clamps, wanted passes, seed. Nothing changes them during a render.
 
 use super::shutter::Shutter;
-use crate::state::flag;
 use crate::tables::expressions::PathExpressions;
 use crate::tables::guiding::GuidingField;
 use crate::tables::light_groups::GroupPasses;
 use crate::tables::motion_vectors::MotionCameras;
 use crate::tables::photons::Photons;
 use crate::tables::shader_passes::ShaderPasses;
+use crate::words::{counts, event, flag};
 use gonio_light::{FixedLightSample, LightCache};
 use gonio_simd::{Execution, F, Lanes, M, Spectrum, U};
 use std::sync::Arc;
@@ -144,15 +144,8 @@ impl Limits {
     /// Whether the bounces of each kind are within their limits.
     #[inline(always)]
     pub(crate) fn allow<L: Lanes>(&self, counts: U<L>) -> M<L> {
-        let at = |kind: u32| (counts >> (kind * 8)) & 255;
-        let limits = self.kind_bounces;
-        at(0).lt(limits[0] + 1) & at(1).lt(limits[1] + 1) & at(2).lt(limits[2] + 1)
-    }
-
-    /// Surfaces that a path has gone straight through, by its counts.
-    #[inline(always)]
-    pub(crate) fn straight<L: Lanes>(counts: U<L>) -> U<L> {
-        counts >> 24
+        let within = |kind: u32| counts::of(counts, kind).lt(self.kind_bounces[kind as usize] + 1);
+        within(event::DIFFUSE) & within(event::GLOSSY) & within(event::TRANSMISSION)
     }
 
     /// Whether the number of surfaces that light goes straight through is limited.
@@ -168,7 +161,7 @@ impl Limits {
     /// Whether a path may go straight through one more surface.
     #[inline(always)]
     pub(crate) fn allow_straight<L: Lanes>(&self, counts: U<L>) -> M<L> {
-        Self::straight(counts).lt(self.kind_bounces[3])
+        counts::straight(counts).lt(self.kind_bounces[3])
     }
 }
 

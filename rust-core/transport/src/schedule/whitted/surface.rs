@@ -9,7 +9,6 @@ use crate::stage::portal::pass_on;
 use crate::stage::shade::{add_seen, guide_and_measure};
 use crate::stage::straight::straight_on;
 use crate::state::chunk::ChunkContext;
-use crate::state::flag::{self, event};
 use crate::state::path_core::PathCore;
 use crate::state::paths::Paths;
 use crate::state::queue::Queues;
@@ -19,6 +18,7 @@ use crate::state::vertex::Vertex;
 use crate::tables::expressions::scattering;
 use crate::tables::material::{SurfaceMaterial, threshold};
 use crate::tables::transport::PathFilter;
+use crate::words::{counts, event, flag};
 use gonio_bsdf::{Lobes, Way};
 use gonio_light::{FixedLightSample, SampleWeight};
 use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
@@ -153,9 +153,9 @@ fn branch<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, ray: &Branch
         return;
     }
     let counted = match way {
-        Way::Mirrored | Way::Coat => 1 << 8,
-        Way::Refracted => 1 << 16,
-        Way::Straight => 1 << 24,
+        Way::Mirrored | Way::Coat => counts::GLOSSY,
+        Way::Refracted => counts::TRANSMISSION,
+        Way::Straight => counts::STRAIGHT,
     };
     let (ray, width, passed) = if way == Way::Straight {
         let on = straight_on(chunk, point);

@@ -2,7 +2,7 @@
 
 use crate::state::queue::shadow_rays::{SHADOW_ROOM, ShadowRays};
 use crate::state::rays::Rays;
-use crate::tables::ray_mask;
+use crate::words::ray_mask;
 use gonio_accel::Tlas;
 use gonio_light::LightTable;
 use gonio_simd::Execution;

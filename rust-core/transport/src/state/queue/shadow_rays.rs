@@ -3,7 +3,7 @@
 use crate::graph::CHUNK;
 use crate::state::rays::{RayLanes, Rays};
 use crate::state::times::SlotTimes;
-use crate::tables::ray_mask;
+use crate::words::ray_mask;
 use gonio_camera::sampler::CAPACITY;
 use gonio_simd::{Column, F, Lanes, M, PADDING, Spectrum, SpectrumColumns, U, padded};
 
@@ -42,7 +42,7 @@ pub(crate) struct ShadowRays {
     pub(crate) rays: Rays,
     pub(crate) contribution: SpectrumColumns,
     pub(crate) slot: Column<u32>,
-    /// The light pass that the contribution counts for, see [`crate::accumulate::light_sums::code`].
+    /// The light pass that the contribution counts for, see [`crate::words::code`].
     pub(crate) code: Column<u32>,
     /// The light that each ray leads to.
     pub(crate) light: Column<u32>,

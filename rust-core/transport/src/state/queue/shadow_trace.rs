@@ -5,7 +5,7 @@ use crate::state::glow::GlowScratch;
 use crate::state::queue::shadow_order::ShadowOrder;
 use crate::state::queue::shadow_rays::SHADOW_ROOM;
 use crate::state::rays::Rays;
-use crate::tables::ray_mask;
+use crate::words::ray_mask;
 use gonio_accel::TransparentHit;
 use gonio_simd::{PADDING, SpectrumColumns};
 

@@ -4,7 +4,7 @@ use crate::state::path_core::PathCore;
 use crate::state::paths::Paths;
 use crate::state::rays::{RayLanes, Rays};
 use crate::state::times::SlotTimes;
-use crate::tables::ray_mask;
+use crate::words::ray_mask;
 use gonio_accel::Hits;
 use gonio_bsdf::subsurface::Medium;
 use gonio_camera::sampler::CAPACITY;

@@ -6,7 +6,7 @@ pub(crate) const CAMERA: u32 = 1;
 pub(crate) const DELTA: u32 = 2;
 /// A surface that is neither mirror nor smooth glass has been met.
 pub(crate) const NON_SPECULAR_SEEN: u32 = 4;
-/// Above this bit, two bits: what the last scattering was, see [`event`].
+/// Above this bit, two bits: what the last scattering was, see [`super::event`].
 pub(crate) const LAST_SHIFT: u32 = 3;
 /// Above this bit, two bits: what the first scattering was; of use only once there was one.
 pub(crate) const FIRST_SHIFT: u32 = 5;
@@ -34,13 +34,3 @@ pub(crate) const STATE_SHIFT: u32 = 15;
 pub(crate) const STATES: u32 = (1 << (BOUNCE_SHIFT - STATE_SHIFT)) - 1;
 /// Above this bit: the number of scatterings.
 pub(crate) const BOUNCE_SHIFT: u32 = 23;
-
-/// Kinds of scattering, for bounce limits, ray visibility and light passes (Cycles' ray types).
-pub(crate) mod event {
-    /// Diffuse, fuzz and subsurface, reflected or transmitted.
-    pub(crate) const DIFFUSE: u32 = 0;
-    /// Reflection off facets.
-    pub(crate) const GLOSSY: u32 = 1;
-    /// Refraction.
-    pub(crate) const TRANSMISSION: u32 = 2;
-}
