@@ -1,7 +1,7 @@
 //! The pictures of a frame: one where the command line names the files, else those that the stage's render products ask for.
 
 use gonio::{Error, Result, colour::Gamut};
-use gonio_usd::{Loaded, render_variable::RenderVariable};
+use gonio_usd::{Loaded, render_settings::RenderVariable};
 use std::{collections::HashSet, path::PathBuf};
 
 use super::{

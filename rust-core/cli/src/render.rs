@@ -30,7 +30,8 @@ use gonio_usd::{
     Complexity, Loaded, Purpose, SampleTime, Stage, StageOptions, VariantSelection, camera,
     frame_name::has_frame,
     framing::is_camera_lit,
-    render_variable::{self, RenderVariable, aov_by_name},
+    render_settings::RenderVariable,
+    render_variable::{self, aov_by_name},
     view::{Headlight, Resolution, ViewOptions, complete},
 };
 use pyo3::prelude::*;
