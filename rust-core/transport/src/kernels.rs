@@ -8,7 +8,7 @@
 
 use crate::geometry::GeometryTable;
 use crate::graph::{self, Around, GraphScratch, OutputColumns, Program, SurfaceColumns};
-use crate::stage::surface::{ChunkSource, HitSource, surface_chunk};
+use crate::stage::find::surface::{ChunkSource, HitSource, surface_chunk};
 use crate::state::chunk::ChunkColumns;
 use crate::state::paths::PreviousLanes;
 use crate::tables::Tables;

@@ -3,16 +3,16 @@
 
 use crate::schedule::steps::{self, MOST_DEPTH};
 use crate::schedule::tracer::{Start, Tracer};
-use crate::stage::closure::choose_closures;
-use crate::stage::emit::{Emission, emit};
-use crate::stage::forward::{LightIntegrator, Splat, Wanted};
-use crate::stage::glow::shine_starts;
-use crate::stage::intersect::{escape, find_surfaces};
-use crate::stage::segments::Segments;
-use crate::stage::shadow::occlude;
-use crate::stage::sort::{list_materials, sort_by_material};
-use crate::stage::start_media::start_media;
-use crate::stage::subsurface::{WalkContext, walk};
+use crate::stage::find::intersect::{escape, find_surfaces};
+use crate::stage::find::segments::Segments;
+use crate::stage::find::sort::{list_materials, sort_by_material};
+use crate::stage::light::glow::shine_starts;
+use crate::stage::light::shadow::occlude;
+use crate::stage::shade::closure::choose_closures;
+use crate::stage::shade::forward::{LightIntegrator, Splat, Wanted};
+use crate::stage::start::emit::{Emission, emit};
+use crate::stage::start::start_media::start_media;
+use crate::stage::walk::subsurface::{WalkContext, walk};
 use crate::state::light_paths::{Arrivals, Escapes};
 use crate::state::paths::Paths;
 use crate::state::sample::SampleContext;

@@ -5,12 +5,12 @@
 use crate::schedule::path::{self, PathIntegrator};
 use crate::schedule::steps;
 use crate::schedule::whitted::{self, WhittedIntegrator};
-use crate::stage::covered::find_covered;
-use crate::stage::generate::{TileArea, generate, generate_at};
-use crate::stage::integrator::Integrator;
-use crate::stage::intersect::find_first;
-use crate::stage::places::{PlaceBatch, PlaceTable, Started, look_at_places, start_places};
-use crate::stage::sensors::{SensorTable, start_sensors};
+use crate::stage::find::covered::find_covered;
+use crate::stage::find::intersect::find_first;
+use crate::stage::shade::integrator::Integrator;
+use crate::stage::start::generate::{TileArea, generate, generate_at};
+use crate::stage::start::places::{PlaceBatch, PlaceTable, Started, look_at_places, start_places};
+use crate::stage::start::sensors::{SensorTable, start_sensors};
 use crate::state::sample::SampleContext;
 use crate::state::workspace::Workspace;
 use crate::statistics::Stage;

@@ -1,4 +1,4 @@
-//! Scratch for what meshes emit that glow by an image or a pattern; see `stage/glow.rs`.
+//! Scratch for what meshes emit that glow by an image or a pattern; see `stage/light/glow.rs`.
 
 use crate::graph::CHUNK;
 use crate::state::chunk::ChunkColumns;

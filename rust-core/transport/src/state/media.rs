@@ -1,4 +1,4 @@
-//! Scratch of what places are in from which paths start; see `stage/start_media.rs`.
+//! Scratch of what places are in from which paths start; see `stage/start/start_media.rs`.
 
 use crate::graph::CHUNK;
 use crate::state::chunk::ChunkColumns;

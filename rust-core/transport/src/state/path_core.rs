@@ -9,7 +9,7 @@ use gonio_simd::{F, Lanes, Spectrum, U};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PathCore<L: Lanes> {
     pub(crate) throughput: Spectrum<L>,
-    /// Where contributions go: the pixel's Morton number, plus `BATCH` for paths that measure illuminance. [`crate::stage::catcher`] adds more.
+    /// Where contributions go: the pixel's Morton number, plus `BATCH` for paths that measure illuminance. [`crate::stage::shade::catcher`] adds more.
     pub(crate) slot: U<L>,
     /// What the path has met, bits of [`crate::words::flag`].
     pub(crate) flags: U<L>,

@@ -6,10 +6,10 @@ pub(crate) use surface::PathIntegrator;
 
 use crate::schedule::steps::{self, MOST_DEPTH};
 use crate::schedule::tracer::Tracer;
-use crate::stage::catcher;
-use crate::stage::closure::choose_closures;
-use crate::stage::sort::sort_by_material;
-use crate::stage::subsurface::{WalkContext, walk};
+use crate::stage::find::sort::sort_by_material;
+use crate::stage::shade::catcher;
+use crate::stage::shade::closure::choose_closures;
+use crate::stage::walk::subsurface::{WalkContext, walk};
 use crate::state::sample::SampleContext;
 use crate::state::workspace::Workspace;
 use crate::statistics::Stage;

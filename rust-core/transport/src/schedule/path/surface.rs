@@ -1,15 +1,15 @@
 //! Path tracing at a register of points: cut-outs, next event estimation (NEE) of one light, BSDF sampling.
 
 use crate::accumulate::deposit::Deposits;
-use crate::stage::guided::{look_up, sampled_by_all, unguided};
-use crate::stage::integrator::Integrator;
-use crate::stage::light_queue::sample_queued;
-use crate::stage::measure::{self, MeasureContext};
-use crate::stage::merge::{direct_brought, merge};
-use crate::stage::nee::{queue_shadow_ray, sample_light};
-use crate::stage::portal::pass_on;
-use crate::stage::scatter::{send_on, without_cut_outs};
-use crate::stage::shade::{add_seen, guide_and_measure};
+use crate::stage::light::light_queue::sample_queued;
+use crate::stage::light::measure::{self, MeasureContext};
+use crate::stage::light::merge::{direct_brought, merge};
+use crate::stage::light::nee::{queue_shadow_ray, sample_light};
+use crate::stage::shade::guided::{look_up, sampled_by_all, unguided};
+use crate::stage::shade::integrator::Integrator;
+use crate::stage::shade::portal::pass_on;
+use crate::stage::shade::scatter::{send_on, without_cut_outs};
+use crate::stage::shade::shade::{add_seen, guide_and_measure};
 use crate::state::chunk::ChunkContext;
 use crate::state::paths::Paths;
 use crate::state::queue::Queues;

@@ -1,8 +1,8 @@
 //! Materials that are sums of closures: all of them are shaded, one after the other, each with its weight.
 
 use crate::kernels;
-use crate::stage::closure::{MixChunk, for_mixes, likelihood, weight};
-use crate::stage::surface::{ChunkRays, ChunkSource};
+use crate::stage::find::surface::{ChunkRays, ChunkSource};
+use crate::stage::shade::closure::{MixChunk, for_mixes, likelihood, weight};
 use crate::state::chunk::ChunkColumns;
 use crate::state::material_order::MaterialOrder;
 use crate::state::paths::Paths;

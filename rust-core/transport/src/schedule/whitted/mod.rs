@@ -14,8 +14,8 @@ pub(crate) use surface::WhittedIntegrator;
 
 use crate::schedule::steps::{self, MOST_DEPTH};
 use crate::schedule::tracer::Tracer;
-use crate::stage::catcher;
-use crate::stage::sort::sort_by_material;
+use crate::stage::find::sort::sort_by_material;
+use crate::stage::shade::catcher;
 use crate::state::sample::SampleContext;
 use crate::state::workspace::Workspace;
 use crate::statistics::Stage;

@@ -2,12 +2,12 @@
 
 use crate::accumulate::deposit::Deposits;
 use crate::kernels;
-use crate::stage::integrator::Integrator;
-use crate::stage::measure::{self, MeasureContext};
-use crate::stage::nee::queue_shadow_ray;
-use crate::stage::portal::pass_on;
-use crate::stage::shade::{add_seen, guide_and_measure};
-use crate::stage::straight::straight_on;
+use crate::stage::light::measure::{self, MeasureContext};
+use crate::stage::light::nee::queue_shadow_ray;
+use crate::stage::shade::integrator::Integrator;
+use crate::stage::shade::portal::pass_on;
+use crate::stage::shade::shade::{add_seen, guide_and_measure};
+use crate::stage::shade::straight::straight_on;
 use crate::state::chunk::ChunkContext;
 use crate::state::path_core::PathCore;
 use crate::state::paths::Paths;
@@ -144,7 +144,7 @@ fn branch<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, ray: &Branch
     let across = point.at.geometric.dot(wi).lt(0.0);
     let consistent = match way {
         Way::Mirrored | Way::Coat => !across,
-        // As in `stage/scatter.rs`.
+        // As in `stage/shade/scatter.rs`.
         Way::Refracted => chunk.l.m(true),
         Way::Straight => across,
     };

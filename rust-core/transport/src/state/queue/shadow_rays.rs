@@ -1,4 +1,4 @@
-//! The queue of shadow rays that next event estimation (NEE) sends: `stage/nee.rs` fills it, `stage/shadow.rs` traces it.
+//! The queue of shadow rays that next event estimation (NEE) sends: `stage/light/nee.rs` fills it, `stage/light/shadow.rs` traces it.
 
 use crate::graph::CHUNK;
 use crate::state::rays::{RayLanes, Rays};

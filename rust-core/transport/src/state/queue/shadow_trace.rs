@@ -32,7 +32,7 @@ pub(crate) struct ShadowTrace {
     pub(crate) glow: GlowScratch,
 }
 
-/// Shadow rays told apart by what blocks them; see `stage/linked_shadow.rs`.
+/// Shadow rays told apart by what blocks them; see `stage/light/linked_shadow.rs`.
 #[derive(Debug)]
 pub(crate) struct LinkedTrace {
     /// Rays that all instances block, or those with a visibility bit.

@@ -1,4 +1,4 @@
-//! Subsurface random walks under way: started by `stage/scatter.rs`, taken step by step in `stage/subsurface.rs`.
+//! Subsurface random walks under way: started by `stage/shade/scatter.rs`, taken step by step in `stage/walk/subsurface.rs`.
 
 use crate::state::path_core::PathCore;
 use crate::state::paths::Paths;

@@ -4,7 +4,7 @@ use crate::accumulate::add::add;
 use crate::accumulate::deposit::Deposits;
 use crate::accumulate::shader_passes::add_shader_passes;
 use crate::accumulate::surface_aovs::{FirstSurface, SurfaceLook};
-use crate::stage::catcher;
+use crate::stage::shade::catcher;
 use crate::state::chunk::ChunkContext;
 use crate::state::vertex::Vertex;
 use crate::tables::material::SurfaceMaterial;

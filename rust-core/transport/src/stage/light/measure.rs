@@ -4,8 +4,8 @@
 
 use crate::accumulate::deposit::{Contribution, Deposits};
 use crate::kernels;
-use crate::stage::merge::{Found, irradiance};
-use crate::stage::nee::{Along, gone_straight, send};
+use crate::stage::light::merge::{Found, irradiance};
+use crate::stage::light::nee::{Along, gone_straight, send};
 use crate::state::columns::load3;
 use crate::state::path_core::PathCore;
 use crate::state::paths::{PathLanes, Paths};

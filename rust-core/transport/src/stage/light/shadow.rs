@@ -5,11 +5,11 @@
 use crate::accumulate::deposit::{Contribution, Deposits};
 use crate::graph::CHUNK;
 use crate::kernels;
-use crate::stage::catcher;
-use crate::stage::glow;
-use crate::stage::linked_shadow;
-use crate::stage::surface::{ChunkRays, ChunkSource};
-use crate::stage::volume;
+use crate::stage::find::surface::{ChunkRays, ChunkSource};
+use crate::stage::light::glow;
+use crate::stage::light::linked_shadow;
+use crate::stage::light::volume;
+use crate::stage::shade::catcher;
 use crate::state::chunk::ChunkColumns;
 use crate::state::columns::load3;
 use crate::state::queue::shadow_order::ShadowOrder;

@@ -1,8 +1,8 @@
 //! Exit of subsurface random walks: the point is lit (NEE) and scatters as a white Lambertian surface.
 
 use crate::accumulate::deposit::Deposits;
-use crate::stage::nee::sample_light;
-use crate::stage::scatter::scatter;
+use crate::stage::light::nee::sample_light;
+use crate::stage::shade::scatter::scatter;
 use crate::state::chunk::ChunkContext;
 use crate::state::queue::Queues;
 use crate::state::vertex::Vertex;

@@ -4,7 +4,7 @@
 //! heuristic). Where the field must not send paths, only the BSDF's part of the density counts, so that nothing is lost.
 
 use crate::kernels;
-use crate::stage::scatter::sampled;
+use crate::stage::shade::scatter::sampled;
 use crate::state::chunk::ChunkContext;
 use crate::state::vertex::Vertex;
 use crate::tables::guiding::{Guided, GuidingField};

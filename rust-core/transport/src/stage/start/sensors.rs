@@ -3,7 +3,7 @@
 //! A sensor owns a square block of pixels, which follow one another along the Morton curve. So their samples together are one net of the
 //! sampler's sequence, and the lanes of a register lie side by side.
 
-use crate::stage::generate::TileArea;
+use crate::stage::start::generate::TileArea;
 use crate::state::columns::gather3;
 use crate::state::path_core::PathCore;
 use crate::state::paths::{PathLanes, Paths};

@@ -1,6 +1,6 @@
 //! Ray generation: a camera ray with its ray cone, the start of a path, for every slot of a batch.
 
-use crate::stage::volume::filling;
+use crate::stage::light::volume::filling;
 use crate::state::path_core::PathCore;
 use crate::state::paths::{PathLanes, Paths};
 use crate::state::rays::RayLanes;

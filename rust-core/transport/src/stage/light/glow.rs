@@ -2,8 +2,8 @@
 
 use crate::graph::CHUNK;
 use crate::kernels;
-use crate::stage::sort::for_materials;
-use crate::stage::surface::{ChunkRays, ChunkSource};
+use crate::stage::find::sort::for_materials;
+use crate::stage::find::surface::{ChunkRays, ChunkSource};
 use crate::state::chunk::ChunkColumns;
 use crate::state::columns::load3;
 use crate::state::glow::{GlowRoom, GlowScratch};

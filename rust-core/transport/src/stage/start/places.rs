@@ -3,8 +3,8 @@
 //! A pixel says where on a triangle it is, so nothing needs to be traced to find it: what its path "meets" first is written down as a hit.
 
 use crate::geometry::{NONE, SurfacePoint};
-use crate::stage::covered::{BEFORE, BEHIND, covered_lanes};
-use crate::stage::generate::TileArea;
+use crate::stage::find::covered::{BEFORE, BEHIND, covered_lanes};
+use crate::stage::start::generate::TileArea;
 use crate::state::nearest::NearestHits;
 use crate::state::path_core::PathCore;
 use crate::state::paths::{PathLanes, Paths};

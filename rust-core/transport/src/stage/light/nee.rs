@@ -3,10 +3,10 @@
 use crate::accumulate::deposit::{Contribution, Deposits, code_of_sampled};
 use crate::accumulate::expression_sums::with_sample;
 use crate::kernels;
-use crate::stage::catcher;
-use crate::stage::guided::with_guiding;
-use crate::stage::terminator::Lifted;
-use crate::stage::volume;
+use crate::stage::light::terminator::Lifted;
+use crate::stage::light::volume;
+use crate::stage::shade::catcher;
+use crate::stage::shade::guided::with_guiding;
 use crate::state::chunk::ChunkContext;
 use crate::state::queue::shadow_rays::{ShadowLanes, ShadowRays};
 use crate::state::rays::RayLanes;

@@ -4,9 +4,9 @@
 
 use crate::accumulate::deposit::to_film;
 use crate::kernels;
-use crate::stage::sort::for_materials;
-use crate::stage::surface::{ChunkRays, ChunkSource};
-use crate::stage::volume::filling;
+use crate::stage::find::sort::for_materials;
+use crate::stage::find::surface::{ChunkRays, ChunkSource};
+use crate::stage::light::volume::filling;
 use crate::state::media::StartRoom;
 use crate::state::rays::Rays;
 use crate::tables::Tables;

@@ -2,7 +2,7 @@
 
 use crate::accumulate::expression_sums::scattering_of;
 use crate::kernels;
-use crate::stage::straight::straight_on;
+use crate::stage::shade::straight::straight_on;
 use crate::state::chunk::ChunkContext;
 use crate::state::path_core::PathCore;
 use crate::state::paths::{PathLanes, Paths};

@@ -1,7 +1,7 @@
 //! What a schedule decides about shading: how a register of points is lit, and how rays go on from there.
 
 use crate::accumulate::deposit::Deposits;
-use crate::stage::measure::MeasureContext;
+use crate::stage::light::measure::MeasureContext;
 use crate::state::chunk::ChunkContext;
 use crate::state::paths::Paths;
 use crate::state::queue::Queues;

@@ -6,8 +6,8 @@
 use crate::accumulate::deposit::Deposits;
 use crate::graph::{CHUNK, Program};
 use crate::kernels;
-use crate::stage::exit::light_and_scatter;
-use crate::stage::surface::{ChunkRays, ChunkSource};
+use crate::stage::find::surface::{ChunkRays, ChunkSource};
+use crate::stage::walk::exit::light_and_scatter;
 use crate::state::chunk::{ChunkColumns, ChunkContext};
 use crate::state::columns::load3;
 use crate::state::paths::Paths;

@@ -1,13 +1,13 @@
 //! Light paths at a register of points: flux arrives, may be seen by the camera, and is scattered on by the adjoint BSDF.
 
 use crate::accumulate::deposit::{Deposits, code_of_found, to_film};
-use crate::stage::integrator::Integrator;
-use crate::stage::measure::MeasureContext;
-use crate::stage::merge::in_share;
-use crate::stage::nee::{gone_straight, seen_share, shares_of};
-use crate::stage::scatter::{send_on, without_cut_outs};
-use crate::stage::shade::{normals, way_numbers};
-use crate::stage::volume;
+use crate::stage::light::measure::MeasureContext;
+use crate::stage::light::merge::in_share;
+use crate::stage::light::nee::{gone_straight, seen_share, shares_of};
+use crate::stage::light::volume;
+use crate::stage::shade::integrator::Integrator;
+use crate::stage::shade::scatter::{send_on, without_cut_outs};
+use crate::stage::shade::shade::{normals, way_numbers};
 use crate::state::chunk::ChunkContext;
 use crate::state::light_paths::ArrivalLanes;
 use crate::state::paths::Paths;

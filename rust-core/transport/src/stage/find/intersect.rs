@@ -7,7 +7,7 @@ use crate::accumulate::deposit::{Contribution, Deposits, Source, code_of_found, 
 use crate::accumulate::expression_sums::with_state;
 use crate::accumulate::guides::is_specular_path;
 use crate::kernels::{self, LightHit};
-use crate::stage::volume;
+use crate::stage::light::volume;
 use crate::state::columns::gather3;
 use crate::state::light_paths::{Escapes, LightStarts};
 use crate::state::nearest::NearestHits;

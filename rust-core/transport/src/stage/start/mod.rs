@@ -1,0 +1,7 @@
+//! Where paths start: at the camera, at meters, on textures that light is baked into, at lights.
+
+pub(crate) mod emit;
+pub(crate) mod generate;
+pub(crate) mod places;
+pub(crate) mod sensors;
+pub(crate) mod start_media;

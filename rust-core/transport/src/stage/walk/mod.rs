@@ -1,0 +1,4 @@
+//! Random walks under surfaces.
+
+pub(crate) mod exit;
+pub(crate) mod subsurface;
