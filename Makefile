@@ -93,7 +93,7 @@ test-rust: $(VENV)/ready
 AT_ONCE := --numprocesses 2 --dist loadfile
 
 test-python: build
-	$(BIN)/python -m pytest $(AT_ONCE) tests/python tests/usd tests/docs
+	$(BIN)/python -m pytest $(AT_ONCE) tests/python tests/usd tests/cli tests/docs
 
 # What renders at every level of this machine, as other machines would, and on one core.
 LEVELS := scalar sse4.2 avx2
@@ -128,7 +128,7 @@ fuzz:
 
 # The long checks: all luxtest frames, kill tests, other renderers where they can be had, Blender's export timed.
 validate: test-blender compare-cycles validation fuzz
-	$(BIN)/python -m pytest tests/python tests/usd tests/validate tests/peers tests/blender -m "validate or not validate" --timeout 1800 \
+	$(BIN)/python -m pytest tests/python tests/usd tests/cli tests/validate tests/peers tests/blender -m "validate or not validate" --timeout 1800 \
 	    --ignore tests/blender/compare_cycles --ignore tests/validate/lighting --ignore tests/validate/goniometer --ignore tests/blender/test_lamps_lux.py
 	cargo test --release --quiet --workspace --exclude gonio-python -- --include-ignored
 

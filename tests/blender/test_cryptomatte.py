@@ -63,7 +63,7 @@ def add_readers():
     import sys
     from pathlib import Path
 
-    sys.path.append(str(Path(__file__).parents[1] / "python"))
+    sys.path.append(str(Path(__file__).parents[1] / "shared"))
 
 
 def scene_of_things(samples=64):

@@ -6,7 +6,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs" / "nodes.md"
-sys.path[:0] = [str(Path(__file__).parent)]
+sys.path[:0] = [str(Path(__file__).parent), str(ROOT / "tests" / "shared")]
 
 import materialx_reference as reference  # noqa: E402
 import test_materialx_nodes as nodes  # noqa: E402

@@ -1,15 +1,10 @@
 """Deep pictures from the command line and from render products."""
 
-import sys
-from pathlib import Path
-
+import deep_reader as reader
 import numpy as np
 import pictures
 import pytest
 from test_render_products import SCENE, VARIABLES, settings
-
-sys.path.append(str(Path(__file__).parents[1] / "python"))
-import deep_reader as reader
 
 gonio = pytest.importorskip("gonio")
 

@@ -1,16 +1,10 @@
 """Cryptomattes of stages, and passes by expressions and by primvars from the command line."""
 
-import sys
-from pathlib import Path
-
+import cryptomatte_reader as reader
 import numpy as np
 import pictures
 import pytest
 from failures import fails
-
-sys.path.append(str(Path(__file__).parents[1] / "python"))
-
-import cryptomatte_reader as reader  # noqa: E402
 
 # Two native instances of a chair, a third prim that shares its mesh's points, and stones on an instancer.
 CHAIRS = """

@@ -15,7 +15,7 @@ import environments
 import gonio
 import pytest
 
-sys.path.append(str(environments.ROOT / "tests" / "usd"))
+sys.path.append(str(environments.ROOT / "tests" / "shared"))
 import pictures  # noqa: E402
 
 pytestmark = [pytest.mark.validate, pytest.mark.timeout(1800)]

@@ -1,0 +1,6 @@
+"""What the tests of the command line want."""
+
+import pytest
+
+pytest.importorskip("gonio")
+pytest.importorskip("pxr")
