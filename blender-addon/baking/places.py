@@ -30,6 +30,8 @@ def read_places(result, width: int, height: int) -> Places:
     primitive, steps = (_read(passes[name], width, height) for name in ("BakePrimitive", "BakeDifferential"))
     # Numbers of triangles stand there bit for bit.
     triangles = np.ascontiguousarray(primitive[..., 2]).view(np.int32)
+    # Elsewhere anything may stand.
+    primitive, steps = (np.where(triangles[..., None] >= 0, each, np.float32(0.0)) for each in (primitive, steps))
     corner_0, corner_1 = primitive[..., 0], primitive[..., 1]
     at = np.stack([corner_1, 1.0 - corner_0 - corner_1], axis=-1)
     along_0, down_0, along_1, down_1 = (2.0 * steps[..., number] for number in range(4))

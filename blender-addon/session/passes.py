@@ -14,6 +14,10 @@ from . import false_color
 from .tone_map import ToneMap
 
 
+# Metres, where a pixel shows nothing.
+FARTHEST = numpy.float32(1e10)
+
+
 class Scale(Enum):
     """What a pass's values are divided by on their way to Blender."""
 
@@ -30,6 +34,8 @@ class Scale(Enum):
     SECONDS = 5
     # Nothing: numbers become greys.
     GREY = 6
+    # Nothing: where nothing is lies far away, as in Cycles.
+    DEPTH = 7
 
 
 @dataclass(frozen=True)
@@ -55,7 +61,7 @@ COMBINED = Pass("Combined", "RGBA", "COLOR", "color", Scale.RADIANCE)
 
 # By the property of the view layer that switches the pass on.
 _LAYER_PASSES = {
-    "use_pass_z": Pass("Depth", "Z", "VALUE", "depth"),
+    "use_pass_z": Pass("Depth", "Z", "VALUE", "depth", Scale.DEPTH),
     "use_pass_mist": Pass("Mist", "Z", "VALUE", "mist"),
     "use_pass_position": Pass("Position", "XYZ", "VECTOR", "P"),
     "use_pass_normal": Pass("Normal", "XYZ", "VECTOR", "normal"),
@@ -189,6 +195,8 @@ def _pixels(film, kind: Pass, settings, samples: int) -> numpy.ndarray:
     if kind == COMBINED:
         return read_combined(film, settings.film_exposure, ToneMap.of(settings))
     flat = read_flat(film, kind.source, kind.factor(settings.film_exposure, samples))
+    if kind.scale is Scale.DEPTH:
+        return numpy.where(flat > 0.0, flat, FARTHEST)
     if kind.scale is Scale.GREY:
         return numpy.repeat(flat, len(kind.channels))
     return to_working(flat, len(kind.channels)) if kind.type == "COLOR" and kind.scale is not Scale.BITS else flat

@@ -38,16 +38,22 @@ def measured(first: numpy.ndarray, second: numpy.ndarray, samples: int, seconds:
     a, b = blocks(first), blocks(second)
     mean = 0.5 * (a + b)
     # The difference of two has twice the standard deviation of their mean.
-    error = 0.5 * numpy.abs(a - b) / (mean + FLOOR * mean.mean())
+    error = 0.5 * numpy.abs(a - b) / scale(mean)
     return Measured(0.5 * (first + second), float(numpy.sqrt((error**2).mean())), 2 * samples, seconds)
 
 
 def difference(image: numpy.ndarray, reference: numpy.ndarray) -> Difference:
     """How far an image is from a reference."""
     a, b = blocks(image), blocks(reference)
-    relative = numpy.abs(a - b) / (b + FLOOR * b.mean())
+    relative = numpy.abs(a - b) / scale(b)
     median, high = numpy.percentile(relative, [50, 95])
     return Difference(float(median), float(high), float(relative.max()), float(abs(a.mean() / b.mean() - 1.0)))
+
+
+def scale(reference: numpy.ndarray) -> numpy.ndarray:
+    """What differences from blocks are divided by; light may be negative."""
+    whole: numpy.ndarray = numpy.abs(reference) + FLOOR * numpy.abs(reference).mean()
+    return whole
 
 
 def blocks(image: numpy.ndarray, side: int = BLOCK) -> numpy.ndarray:
@@ -60,7 +66,7 @@ def blocks(image: numpy.ndarray, side: int = BLOCK) -> numpy.ndarray:
 def write_strip(path: Path, image: numpy.ndarray, reference: numpy.ndarray) -> None:
     """A PNG: the image, the reference, and the relative difference of their blocks, amplified about middle grey (white is +5 %)."""
     exposure = 0.25 / reference.mean()
-    relative = (blocks(image) - blocks(reference)) / (blocks(reference) + FLOOR * reference.mean())
+    relative = (blocks(image) - blocks(reference)) / scale(blocks(reference))
     squares = (0.5 + 0.5 * DIFFERENCE_GAIN * relative).repeat(BLOCK, axis=0).repeat(BLOCK, axis=1)
     shown = [encoded(image * exposure), encoded(reference * exposure), squares]
     write_png(path, (numpy.clip(numpy.concatenate(shown, axis=1), 0.0, 1.0) * 255 + 0.5).astype("u1"))

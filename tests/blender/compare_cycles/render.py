@@ -67,17 +67,29 @@ def build(theme: str, scene: str, samples: int) -> None:
 
 
 def rendered(engine: str, path: Path, told: tuple[str, ...] = ()) -> numpy.ndarray:
-    """The open scene; Gonio takes its settings from those of Cycles, and may not have to leave anything out. It may tell lines of these severities."""
+    """The open scene, or what it bakes into the image `Baked`. Gonio takes its settings from those of Cycles, and may not have to leave anything out.
+    It may tell lines of these severities."""
     scene = bpy.context.scene
     scene.render.engine = engine
     if engine == "GONIO":
         bpy.ops.gonio.settings_from_cycles()
         # Nothing of the comparison's is left to what the engine would choose.
         scene.gonio.use_adaptive_sampling = False
-    scene.render.image_settings.file_format, scene.render.image_settings.color_depth = "OPEN_EXR", "32"
-    scene.render.filepath = str(path)
-    bpy.ops.render.render(write_still=True)
+    baked = bpy.data.images.get("Baked")
+    if baked is not None:
+        bpy.ops.object.bake(type=scene.cycles.bake_type)
+    else:
+        scene.render.image_settings.file_format, scene.render.image_settings.color_depth = "OPEN_EXR", "32"
+        scene.render.filepath = str(path)
+        bpy.ops.render.render(write_still=True)
     if engine == "GONIO":
         lines = importlib.import_module("gonio_extension.report").latest().diagnostics
         assert all(line.severity in told for line in lines), [line.text for line in lines]
-    return pixels(path)
+    return pixels(path) if baked is None else image_pixels(baked)
+
+
+def image_pixels(image: bpy.types.Image) -> numpy.ndarray:
+    """The colours (height, width, 3) of an image, the top row first."""
+    flat = numpy.empty(len(image.pixels), dtype="f4")
+    image.pixels.foreach_get(flat)
+    return flat.reshape(image.size[1], image.size[0], 4)[::-1, :, :3]

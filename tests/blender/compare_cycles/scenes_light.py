@@ -171,3 +171,14 @@ def opaque_shadows() -> None:
         plane(pane, 0.8, location=(-1.2 + 2.2 * number, -0.9, 0.9), rotation=(0.5, 0.3, 0.0))
         ball(mixed, 0.25, location=(-0.4 + 0.8 * number, -1.3, 0.25))
     lamp("POINT", 120.0, (0.0, -1.6, 3.0), shadow_soft_size=0.3, use_soft_falloff=False)
+
+
+def clamped_caustics() -> None:
+    """Light paths bring what two mirrors throw, under a limit on indirect light that nothing here reaches in one go."""
+    corner()
+    chrome = material("BsdfAnisotropic", Color=(0.9, 0.9, 0.9), Roughness=0.0)
+    ball(chrome, 0.35, location=(0.1, -0.9, 0.35))
+    plane(chrome, 1.0, location=(1.6, -0.6, 0.5), rotation=(0.0, radians(-75), 0.0))
+    lamp("AREA", 120.0, (-1.2, -1.6, 3.0), (0.5, -0.3, 0.5), size=1.4)
+    bpy.context.scene.cycles.sample_clamp_indirect = 20.0
+    bpy.context.scene.gonio.caustics = "ON"
