@@ -188,14 +188,14 @@ impl<L: Lanes> Film<L> {
         let plain = dielectric_film(c.lanes(), self, c, eta);
         [self.tinted(plain, eta, first[0], first[1]), self.tinted(plain, eta, second[0], second[1])]
     }
-    /// The reflectance `plain` over a dielectric with the ends moved.
+    /// The reflectance `plain` over a dielectric with the ends moved; at most 1, whatever the tint.
     #[inline(always)]
     fn tinted(&self, plain: Spectrum<L>, eta: F<L>, f0: Spectrum<L>, f90: Spectrum<L>) -> Spectrum<L> {
         let normal = normal_reflectance(eta);
         let toward = (Spectrum::one(eta.lanes()) - plain) * (1.0 - normal).recip();
         let factor = f0 * normal.max(1e-5).recip();
         let tint = f90 + (factor - f90) * toward.saturate();
-        plain * normal.gt(1e-5).select(tint, f90)
+        (plain * normal.gt(1e-5).select(tint, f90)).saturate()
     }
     /// Reflectance of the film over a conductor.
     #[inline(always)]

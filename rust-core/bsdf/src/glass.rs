@@ -59,7 +59,7 @@ impl<L: Lanes> Interface<L> {
         let passed = (white - self.kept) * self.passed * (1.0 - share);
         let Some(film) = &self.film else { return [reflected, passed] };
         let [mirrored, kept] = film.over_two(c, self.eta, [[self.f0, self.f90], [self.kept, white]]);
-        [reflected.lerp(mirrored, film.weight), passed.lerp((white - kept).max(0.0) * self.passed, film.weight)]
+        [reflected.lerp(mirrored, film.weight), passed.lerp((white - kept) * self.passed, film.weight)]
     }
     /// Probability of reflection at half-angle cosine `c`.
     #[inline(always)]

@@ -90,7 +90,7 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
         let normal = fresnel::normal_reflectance(eta);
         // Films are those of unpolarised light.
         let film = match self.film(self.l.f(1.0)) {
-            Some(film) => Some((film.over_tinted(self.specular_mu, eta, base.ends[0], base.ends[1]).saturate(), film.weight)),
+            Some(film) => Some((film.over_tinted(self.specular_mu, eta, base.ends[0], base.ends[1]), film.weight)),
             None => None,
         };
         let (mut reflected, mut passed) = (Spectrum::zero(self.l), Spectrum::zero(self.l));
