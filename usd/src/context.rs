@@ -207,6 +207,11 @@ impl<'a, 'py> Context<'a, 'py> {
         self.get(prim, name).unwrap_or(otherwise)
     }
 
+    /// Whether faces wind the other way: `orientation` is `leftHanded`.
+    pub fn left_handed(&mut self, prim: &Prim<'py>) -> bool {
+        self.get_authored::<String>(prim, "orientation").is_some_and(|orientation| orientation == "leftHanded")
+    }
+
     /// The value of an attribute at the time, converted; see [`Context::get`].
     pub fn get_attribute<T: FromValue>(&mut self, attribute: &Attribute<'py>) -> Option<T> {
         let value = self.get_value(attribute)?;

@@ -46,7 +46,7 @@ pub fn read<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<Rea
         }
     };
     polygons.hole_faces = unsigned(context.get_authored::<Vec<i32>>(prim, "holeIndices"));
-    polygons.left_handed = context.get_authored::<String>(prim, "orientation").is_some_and(|orientation| orientation == "leftHanded");
+    polygons.left_handed = context.left_handed(prim);
     polygons.primvars = primvar::authored(context, prim);
     let (surface, normals) = surface(context, prim);
     polygons.primvars.extend(normals);

@@ -47,7 +47,7 @@ pub fn read<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<Rea
     let pieces = pieces(context.options.complexity);
     let grid = Grid { u: u.samples(pieces), v: v.samples(pieces), width: u.count };
     let mut polygons = grid.polygons(&control);
-    polygons.left_handed = context.get_authored::<String>(prim, "orientation").is_some_and(|orientation| orientation == "leftHanded");
+    polygons.left_handed = context.left_handed(prim);
     for primvar in primvar::authored(context, prim) {
         match primvar.interpolation {
             Interpolation::Constant => polygons.primvars.push(primvar),

@@ -99,7 +99,7 @@ pub fn read<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, type_name: &s
         _ => Quadric::Plane { width: size("width", 2.0), length: size("length", 2.0), axis: Axis::Z },
     };
     let quadric = quadric.standing_on(axis(context, prim));
-    let left_handed = context.get_authored::<String>(prim, "orientation").is_some_and(|orientation| orientation == "leftHanded");
+    let left_handed = context.left_handed(prim);
     quadric.is_finite().then_some(Oriented { quadric, left_handed })
 }
 

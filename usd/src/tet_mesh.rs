@@ -30,7 +30,7 @@ pub fn read<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<Rea
             return None;
         }
     };
-    polygons.left_handed = context.get_authored::<String>(prim, "orientation").is_some_and(|orientation| orientation == "leftHanded");
+    polygons.left_handed = context.left_handed(prim);
     for primvar in primvar::authored(context, prim).into_iter().chain(primvar::normals(context, prim)) {
         if matches!(primvar.interpolation, Interpolation::Constant | Interpolation::Varying | Interpolation::Vertex) {
             polygons.primvars.push(primvar);
