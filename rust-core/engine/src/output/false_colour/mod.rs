@@ -28,7 +28,9 @@ pub struct FalseColour {
 const PAPER: [u8; 4] = [24, 24, 24, 255];
 const INK: [u8; 4] = [235, 235, 235, 255];
 /// Pixels of a digit's height, at least and at most.
-const TEXT: [usize; 2] = [9, 64];
+const TEXT: [usize; 2] = [7, 64];
+/// Lines that any legend has room for.
+const LEAST_LINES: usize = 5;
 /// Isolines over false colour; over pictures they take their steps' colours.
 const LINE: [u8; 4] = [0, 0, 0, 255];
 
@@ -86,14 +88,14 @@ impl FalseColour {
         canvas
     }
 
-    /// The legend for a picture of a height, at least as tall as its text wants.
+    /// The legend for a picture of a height, at least as tall as its unit and two edges want.
     pub fn legend(&self, height: usize) -> Canvas {
         let labels: Vec<String> = self.scale.edges().iter().map(|edge| short_number(f64::from(*edge))).collect();
         // A twenty-sixth of the picture, less where there are many steps.
         let text = (height / 26).min(height * 2 / (3 * (labels.len() + 2))).clamp(TEXT[0], TEXT[1]);
         let widest = labels.iter().chain([&self.unit]).map(|label| Canvas::text_size(label, text)[0]).max().unwrap_or(0);
         let (margin, swatch, line) = (text * 2 / 3, text * 3 / 2, text * 3 / 2);
-        let mut canvas = Canvas::new([3 * margin + swatch + widest, height.max((labels.len() + 2) * line)], PAPER);
+        let mut canvas = Canvas::new([3 * margin + swatch + widest, height.max(LEAST_LINES * line)], PAPER);
         canvas.write(&self.unit, [margin, margin], text, INK);
         let (top, steps) = (margin + 2 * line, self.scale.steps());
         let room = canvas.size[1].saturating_sub(top + line);
@@ -102,7 +104,9 @@ impl FalseColour {
             let [r, g, b] = self.scale.colour(step);
             canvas.fill([margin, edge(step + 1)], [swatch, edge(step) - edge(step + 1)], [r, g, b, 255]);
         }
-        for (step, label) in labels.iter().enumerate() {
+        // Both ends are named, and what stands evenly between them without touching.
+        let every = (1..=steps).find(|every| steps.is_multiple_of(*every) && room * every >= steps * text * 5 / 4).unwrap_or(steps);
+        for (step, label) in labels.iter().enumerate().step_by(every) {
             canvas.write(label, [2 * margin + swatch, edge(step).saturating_sub(text / 2)], text, INK);
         }
         canvas
@@ -203,5 +207,14 @@ mod tests {
         assert!(canvas.size[0] > 320 && canvas.size[1] == 240, "{:?}", canvas.size);
         let colours: std::collections::HashSet<_> = canvas.rgba.chunks_exact(4).map(|p| [p[0], p[1], p[2]]).collect();
         assert!((0..5).all(|step| colours.contains(&picture.scale.colour(step))));
+    }
+
+    #[test]
+    fn legends_leave_small_pictures_their_size() {
+        let tenths = FalseColour { legend: true, ..plain(500.0, 10) };
+        for (size, most) in [([160, 120], 48), ([64, 64], 48), ([640, 480], 110)] {
+            let canvas = tenths.draw(&vec![250.0; size[0] * size[1]], size);
+            assert!(canvas.size[1] == size[1] && canvas.size[0] - size[0] <= most, "{size:?}: {:?}", canvas.size);
+        }
     }
 }
