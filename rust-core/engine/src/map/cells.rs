@@ -10,7 +10,7 @@ pub struct CellChart {
 }
 
 /// Most divisions of a triangle: a million cells.
-const MOST_LEVELS: u8 = 10;
+pub(super) const MOST_LEVELS: u8 = 10;
 
 /// Divisions after which a triangle's parts are no larger than wanted.
 pub(super) fn levels_for(area: f64, wanted: f64) -> u8 {
@@ -55,7 +55,25 @@ impl CellChart {
     /// The cell at barycentric coordinates of corners 1 and 2.
     pub fn cell(&self, triangle: u32, place: [f32; 2]) -> usize {
         let triangle = triangle as usize;
-        self.first[triangle] as usize + code(self.levels[triangle], place) as usize
+        self.first[triangle] as usize + divided(self.levels[triangle], place).0 as usize
+    }
+    /// The first cell of the part at a place, where cells were joined to these levels, and the place in that part.
+    pub(super) fn part(&self, triangle: u32, place: [f32; 2], levels: &[u8]) -> (usize, [f32; 2]) {
+        let level = levels[self.cell(triangle, place)];
+        let (code, place) = divided(level, place);
+        let triangle = triangle as usize;
+        (self.first[triangle] as usize + ((code as usize) << (2 * (self.levels[triangle] - level))), place)
+    }
+    /// The parts of a triangle whose cells were joined to these levels: the first cell of each, and its corners.
+    pub(super) fn parts<'a>(&'a self, triangle: usize, levels: &'a [u8]) -> impl Iterator<Item = (usize, [[f64; 2]; 3])> + 'a {
+        let cells = self.cells(triangle);
+        let mut cell = cells.start;
+        std::iter::from_fn(move || {
+            let first = (cell < cells.end).then_some(cell)?;
+            let joined = 2 * (self.level(triangle) - levels[first]);
+            cell += 1 << joined;
+            Some((first, corners(levels[first], ((first - cells.start) >> joined) as u32)))
+        })
     }
     /// Bytes of so many triangles'.
     pub(super) fn memory(triangles: u64) -> u64 {
@@ -63,8 +81,8 @@ impl CellChart {
     }
 }
 
-/// The part of a triangle that a place lies in: parts at corner 0, 1, 2 and the middle one, two bits a division.
-fn code(level: u8, [mut u, mut v]: [f32; 2]) -> u32 {
+/// The part of a triangle that a place lies in: parts at corner 0, 1, 2 and the middle one, two bits a division; and the place in that part.
+fn divided(level: u8, [mut u, mut v]: [f32; 2]) -> (u32, [f32; 2]) {
     let mut code = 0;
     for _ in 0..level {
         let part;
@@ -79,7 +97,7 @@ fn code(level: u8, [mut u, mut v]: [f32; 2]) -> u32 {
         };
         code = 4 * code + part;
     }
-    code
+    (code, [u, v])
 }
 
 /// Barycentric coordinates (of corners 1 and 2) of the corners of a part.
@@ -109,7 +127,7 @@ mod tests {
             for number in 0..1u32 << (2 * level) {
                 let corners = corners(level, number);
                 let middle = [0, 1].map(|k| (corners.iter().map(|corner| corner[k]).sum::<f64>() / 3.0) as f32);
-                assert_eq!(code(level, middle), number, "{level} {corners:?}");
+                assert_eq!(divided(level, middle).0, number, "{level} {corners:?}");
                 let [a, b, c] = corners;
                 let double = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
                 assert!((double * f64::from(1u32 << (2 * level)) - 1.0).abs() < 1e-12, "{level} {number}: {double}");
@@ -121,7 +139,7 @@ mod tests {
     fn corners_of_corner_cells_come_in_order() {
         // The corner of a triangle belongs to the cell that begins with it.
         for (number, place) in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].into_iter().enumerate() {
-            let cell = code(3, place.map(|x: f64| x as f32));
+            let cell = divided(3, place.map(|x: f64| x as f32)).0;
             assert_eq!(corners(3, cell)[number], place);
         }
     }

@@ -1,7 +1,7 @@
 //! Divided triangles as USD meshes: what a primvar on a coarse mesh cannot hold.
 
 use super::{
-    cells::{CellChart, corners},
+    cells::CellChart,
     gather::{Chart, IlluminationMaps, SurfaceMap},
     side::SideMap,
 };
@@ -47,14 +47,9 @@ fn parts(mesh: &Mesh, map: &SurfaceMap, chart: &CellChart, side: &SideMap, metre
     let mut out = Vec::new();
     for (triangle, points) in mesh.triangles.iter().enumerate().filter(|(triangle, _)| map.surface.areas[*triangle] > 0.0) {
         let [a, b, c] = points.map(|point| mesh.points.get(point as usize).map_or([0.0; 3], |point| point.map(f64::from)));
-        let cells = chart.cells(triangle);
-        let mut cell = cells.start;
-        while cell < cells.end {
-            let joined = 2 * (chart.level(triangle) - side.level[cell]);
-            let place = corners(side.level[cell], ((cell - cells.start) >> joined) as u32);
+        for (cell, place) in chart.parts(triangle, &side.level) {
             let world = place.map(|[u, v]| map.surface.transform.point([0, 1, 2].map(|k| a[k] * (1.0 - u - v) + b[k] * u + c[k] * v)));
             out.push((world.map(|point| point.map(|x| x / metres_per_unit)), side.illuminance[cell]));
-            cell += 1 << joined;
         }
     }
     out

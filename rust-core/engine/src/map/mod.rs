@@ -12,6 +12,7 @@ mod gather;
 mod join;
 mod options;
 mod side;
+mod smooth;
 mod surface;
 mod table;
 mod texels;

@@ -22,7 +22,7 @@ pub struct FaceTable {
 }
 
 /// Normals of triangles that meet in a point may differ by so much, as a cosine, where their values are joined.
-const SAME_SURFACE: f64 = 0.866;
+pub(super) const SAME_SURFACE: f64 = 0.866;
 
 /// The text of a layer over the stage: `primvars:gonio:illuminance` (lux of the front; `…:back` of the back), or the texture's name where one is
 /// told. `faces` tells a prim's faces; surfaces without are left out, as is what is placed several times. Gives how many were written.

@@ -3,6 +3,7 @@
 use super::{
     gather::{Chart, IlluminationMaps, SurfaceMap},
     side::SideMap,
+    smooth::{Facet, Smooth},
 };
 use crate::{
     accel::NONE,
@@ -47,8 +48,17 @@ pub fn view(
     let View { camera, placement, transport, window, .. } = View::new(scene, &settings, execution)?;
     let tracer = Tracer { tables: &scene.tables, start: Start::Camera(&camera, &placement), transport };
     let size = [0, 1].map(|axis| (window.max[axis] - window.min[axis]) as usize);
-    let looking =
-        Looking { maps, tracer: &tracer, camera: &camera, min: window.min, width: size[0], quantity, side: side.clamp(1, MOST_SIDE) };
+    let smooth = maps.surfaces.iter().map(|map| smooth(map, &scene.tables.geometry, quantity)).collect();
+    let looking = Looking {
+        maps,
+        smooth,
+        tracer: &tracer,
+        camera: &camera,
+        min: window.min,
+        width: size[0],
+        quantity,
+        side: side.clamp(1, MOST_SIDE),
+    };
     let mut values = vec![f32::NAN; size[0] * size[1]];
     let pixels = BATCH / (looking.side * looking.side) as usize;
     in_pool(|| {
@@ -63,6 +73,8 @@ const MOST_SIDE: u32 = 16;
 
 struct Looking<'a> {
     maps: &'a IlluminationMaps,
+    /// Both sides of each surface that is divided by triangles.
+    smooth: Vec<[Option<Smooth<'a>>; 2]>,
     tracer: &'a Tracer<'a>,
     camera: &'a CameraTable,
     min: [u32; 2],
@@ -94,12 +106,14 @@ impl Looking<'_> {
             if instance == NONE {
                 continue;
             }
-            let Some(map) = self.maps.of_instance.get(instance as usize).and_then(|number| self.maps.surfaces.get(*number as usize)) else {
-                continue;
-            };
+            let Some(surface) = self.maps.of_instance.get(instance as usize).map(|number| *number as usize) else { continue };
+            let Some(map) = self.maps.surfaces.get(surface) else { continue };
             let place = [hits.u[ray], hits.v[ray]];
-            let back = self.is_back(instance, hits.primitive[ray], place);
-            let value = map.at(usize::from(back), hits.primitive[ray], place, self.quantity);
+            let side = usize::from(self.is_back(instance, hits.primitive[ray], place));
+            let value = match &self.smooth[surface][side] {
+                Some(smooth) => smooth.at(hits.primitive[ray], place),
+                None => map.at(side, hits.primitive[ray], place, self.quantity),
+            };
             if value.is_finite() {
                 let sum = &mut sums[slot as usize / rays];
                 *sum = (sum.0 + value, sum.1 + 1);
@@ -119,6 +133,24 @@ impl Looking<'_> {
         };
         (0..3).map(|k| normal[k] * direction[k]).sum::<f32>() > 0.0
     }
+}
+
+/// Both sides of a surface that is divided by triangles, made smooth.
+fn smooth<'a>(map: &'a SurfaceMap, geometry: &GeometryTable, quantity: Quantity) -> [Option<Smooth<'a>>; 2] {
+    let Chart::Cells(chart) = &map.chart else { return [None, None] };
+    let first = geometry.instances[map.surface.instance as usize].first_triangle as usize;
+    let facet = |(triangle, area): (usize, &f64)| {
+        let (_, normal) = point(geometry, map.surface.instance, triangle as u32, [1.0 / 3.0; 2]);
+        let length = normal.iter().map(|x| x * x).sum::<f32>().sqrt();
+        let at = 3 * (first + triangle);
+        let points = [geometry.corners[at], geometry.corners[at + 1], geometry.corners[at + 2]];
+        (*area > 0.0).then(|| Facet { points, normal: normal.map(|x| x / length) })
+    };
+    let facets: Vec<Option<Facet>> = map.surface.areas.iter().enumerate().map(facet).collect();
+    [0, 1].map(|side| {
+        let side = map.sides[side].as_ref()?;
+        Some(Smooth::new(chart, &side.level, &facets, |cell| side.value(cell, quantity)))
+    })
 }
 
 /// Position and normal (not unit) at a place of a triangle, rebased world space.
