@@ -12,7 +12,7 @@
 //! - [`walk::subsurface`] takes the random walks under surfaces, [`walk::exit`] lights where they leave.
 //! - [`light::measure`] lights points whose illuminance is wanted.
 //! - [`light::merge`] takes up photons behind mirrors and smooth glass.
-//! - [`light::shadow`] traces shadow rays and adds what arrives; [`light::volume`] says what light loses in what fills meshes.
+//! - [`light::shadow`] traces shadow rays and adds what arrives; [`light::transmittance`] says what light loses in what fills meshes.
 //!
 //! `schedule/light` starts light paths by [`start::emit`], and shades by [`shade::forward`]. [`start::start_media`] says what absorbs where paths start.
 //! [`find::segments`] are the ways that light paths go.

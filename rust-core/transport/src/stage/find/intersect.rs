@@ -7,7 +7,7 @@ use crate::accumulate::deposit::{Contribution, Deposits, Source, code_of_found, 
 use crate::accumulate::expression_sums::with_state;
 use crate::accumulate::guides::is_specular_path;
 use crate::kernels::{self, LightHit};
-use crate::stage::light::volume;
+use crate::stage::light::transmittance;
 use crate::state::columns::gather3;
 use crate::state::light_paths::{Escapes, LightStarts};
 use crate::state::nearest::NearestHits;
@@ -116,7 +116,7 @@ fn add_shapes<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths: &Pa
             weight = (flags & flag::CAMERA).ne(0).select(weight, weight * factor);
         }
         let radiance = if tables.any_absorbing {
-            radiance * volume::left(l, paths, path, l.gather(&hits.t, path) - paths.rays.passed.distance(l, path))
+            radiance * transmittance::transmittance(l, paths, path, l.gather(&hits.t, path) - paths.rays.passed.distance(l, path))
         } else {
             radiance
         };
@@ -199,7 +199,8 @@ fn add_environment<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths
                 sent = brought.select((sent - part).max(0.0), sent);
             }
         }
-        let throughput = if tables.any_volume { throughput * volume::left(l, paths, path, l.f(f32::MAX)) } else { throughput };
+        let throughput =
+            if tables.any_volume { throughput * transmittance::transmittance(l, paths, path, l.f(f32::MAX)) } else { throughput };
         let unclamped = sent * throughput;
         let value = transport.limits.clamped(unclamped, flags >> flag::BOUNCE_SHIFT);
         let expressions = transport.passes.expressions.as_deref();

@@ -4,7 +4,7 @@ use crate::accumulate::deposit::{Contribution, Deposits, code_of_sampled};
 use crate::accumulate::expression_sums::with_sample;
 use crate::kernels;
 use crate::stage::light::terminator::Lifted;
-use crate::stage::light::volume;
+use crate::stage::light::transmittance;
 use crate::stage::shade::catcher;
 use crate::stage::shade::guided::with_guiding;
 use crate::state::chunk::ChunkContext;
@@ -85,7 +85,7 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
     let code = with_sample(transport.passes.expressions.as_deref(), code_of_sampled(point.core.flags), point.core.flags, !wi.z.gt(0.0));
     let shares = if deposits.wants_shares(transport) { Some(shares(l, lobes, point.local_wo, wi, f)) } else { None };
     let light = Contribution::sampled(sample.light, point.core.slot, value, code, shares);
-    let medium = volume::start(tables, point, sample.wi);
+    let medium = transmittance::medium_towards(tables, point, sample.wi);
     let along = Along { medium, straight: gone_straight(tables, transport, point.core.counts), ceiling };
     // One call each: rays of both in one place would be copied through memory.
     match &lifted {

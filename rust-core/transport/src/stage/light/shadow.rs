@@ -8,7 +8,7 @@ use crate::kernels;
 use crate::stage::find::surface::{ChunkRays, ChunkSource};
 use crate::stage::light::glow;
 use crate::stage::light::linked_shadow;
-use crate::stage::light::volume;
+use crate::stage::light::transmittance;
 use crate::stage::shade::catcher;
 use crate::state::chunk::ChunkColumns;
 use crate::state::columns::load3;
@@ -108,7 +108,7 @@ fn block_deep(limits: &Limits, trace: &mut ShadowTrace, shadows: &ShadowRays) {
 /// Multiplies contributions by the transmittance of the surfaces their rays passed, material by material.
 fn dim_by_surfaces(tables: &Tables, transport: &Transport, trace: &mut ShadowTrace, shadows: &mut ShadowRays, columns: &mut ChunkColumns) {
     if tables.any_absorbing {
-        dispatch!(transport.execution, l => volume::begin(l, shadows, trace));
+        dispatch!(transport.execution, l => transmittance::begin_depths(l, shadows, trace));
     }
     if tables.any_transparent && transport.limits.counts_straight() {
         block_deep(&transport.limits, trace, shadows);
@@ -129,7 +129,7 @@ fn dim_by_surfaces(tables: &Tables, transport: &Transport, trace: &mut ShadowTra
     }
     trace.passed = passed;
     if tables.any_absorbing {
-        dispatch!(transport.execution, l => volume::dim(l, shadows, trace));
+        dispatch!(transport.execution, l => transmittance::attenuate(l, shadows, trace));
     }
 }
 
@@ -167,7 +167,7 @@ fn dim_chunk<L: Lanes>(
         shadows.contribution.multiply(hit.ray as usize, factors, i);
     }
     if let Some(interior) = tables.materials.interior(material) {
-        volume::pass(l, interior, hits, &columns.surface.side, trace);
+        transmittance::add_depths(l, interior, hits, &columns.surface.side, trace);
     }
 }
 

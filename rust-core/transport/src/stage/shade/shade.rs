@@ -8,7 +8,7 @@ use crate::accumulate::expression_sums::with_state;
 use crate::accumulate::guides::{add_guides, is_specular_path};
 use crate::geometry::NONE;
 use crate::kernels::{self, LightHit};
-use crate::stage::light::volume;
+use crate::stage::light::transmittance;
 use crate::stage::shade::catcher;
 use crate::stage::shade::first_surface::{add_first_surface, without_holdouts};
 use crate::stage::shade::integrator::Integrator;
@@ -151,7 +151,7 @@ fn absorb<L: Lanes>(
     let inside = material.surface.absorption(l, values, at);
     let entering = l.load(&chunk.columns.surface.side, at).gt(0.0);
     point.behind = if chunk.tables.any_volume {
-        volume::beyond(point.core.medium, inside, material.interior, entering)
+        transmittance::medium_behind(point.core.medium, inside, material.interior, entering)
     } else {
         // Leaving a solid leads to the open.
         inside.keep_if(entering)

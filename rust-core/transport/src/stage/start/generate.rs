@@ -1,6 +1,6 @@
 //! Ray generation: a camera ray with its ray cone, the start of a path, for every slot of a batch.
 
-use crate::stage::light::volume::filling;
+use crate::stage::light::transmittance::absorption;
 use crate::state::path_core::PathCore;
 use crate::state::paths::{PathLanes, Paths};
 use crate::state::rays::RayLanes;
@@ -37,7 +37,7 @@ pub fn generate<L: Lanes>(
     paths: &mut Paths,
 ) {
     paths.clear();
-    let medium = filling(l, camera.medium);
+    let medium = absorption(l, camera.medium);
     for [slot, first_pixel, sample] in runs.registers(L::COUNT) {
         let pixel = l.iota() + first_pixel;
         let (x, y) = (morton_even(pixel), morton_even(pixel >> 1));
@@ -68,7 +68,7 @@ pub fn generate<L: Lanes>(
 #[inline(always)]
 pub(crate) fn generate_at<L: Lanes>(l: L, camera: &CameraTable, places: [&[f32]; 2], slots: &[u32], paths: &mut Paths) {
     paths.clear();
-    let medium = filling(l, camera.medium);
+    let medium = absorption(l, camera.medium);
     let (mut x, mut y, mut slot) = ([0.0; PADDING], [0.0; PADDING], [0; PADDING]);
     for first in (0..slots.len()).step_by(L::COUNT) {
         let end = (first + L::COUNT).min(slots.len());

@@ -6,7 +6,7 @@ use crate::accumulate::deposit::to_film;
 use crate::kernels;
 use crate::stage::find::sort::for_materials;
 use crate::stage::find::surface::{ChunkRays, ChunkSource};
-use crate::stage::light::volume::filling;
+use crate::stage::light::transmittance::absorption;
 use crate::state::media::StartRoom;
 use crate::state::rays::Rays;
 use crate::tables::Tables;
@@ -151,7 +151,7 @@ fn look_up_chunk<L: Lanes>(l: L, tables: &Tables, material: u32, hits: &[Transpa
         }
     }
     if let Some(interior) = tables.materials.interior(material) {
-        let filling = filling(l, interior);
+        let filling = absorption(l, interior);
         (0..hits.len()).step_by(L::COUNT).for_each(|at| room.chunk.store(room.chunk.load(l, at) + filling, at));
     }
 }

@@ -18,9 +18,9 @@ const RESIDUE: f32 = 1e-5;
 
 /// Absorption behind a surface: that of the medium before it, more or less by what fills the mesh and by what the surface itself encloses.
 #[inline(always)]
-pub(crate) fn beyond<L: Lanes>(medium: Spectrum<L>, inside: Spectrum<L>, interior: Option<[f32; 3]>, entering: M<L>) -> Spectrum<L> {
+pub(crate) fn medium_behind<L: Lanes>(medium: Spectrum<L>, inside: Spectrum<L>, interior: Option<[f32; 3]>, entering: M<L>) -> Spectrum<L> {
     let own = match interior {
-        Some(interior) => inside + filling(medium.lanes(), interior),
+        Some(interior) => inside + absorption(medium.lanes(), interior),
         None => inside,
     };
     entering.select(medium + own, (medium - own - medium * RESIDUE).max(0.0))
@@ -28,19 +28,19 @@ pub(crate) fn beyond<L: Lanes>(medium: Spectrum<L>, inside: Spectrum<L>, interio
 
 /// Absorption in every lane.
 #[inline(always)]
-pub(crate) fn filling<L: Lanes>(l: L, interior: [f32; 3]) -> Spectrum<L> {
+pub(crate) fn absorption<L: Lanes>(l: L, interior: [f32; 3]) -> Spectrum<L> {
     spectrum(Rgb::new(l.f(interior[0]), l.f(interior[1]), l.f(interior[2])))
 }
 
 /// What is left of light that paths have met at a distance, lights and the environment, by what they are in.
 #[inline(always)]
-pub(crate) fn left<L: Lanes>(l: L, paths: &Paths, path: U<L>, distance: F<L>) -> Spectrum<L> {
+pub(crate) fn transmittance<L: Lanes>(l: L, paths: &Paths, path: U<L>, distance: F<L>) -> Spectrum<L> {
     (paths.medium.gather(l, path) * -distance.min(FAR)).exp()
 }
 
 /// What a ray starts in that leaves a point in a direction.
 #[inline(always)]
-pub(crate) fn start<L: Lanes>(tables: &Tables, point: &Vertex<L>, direction: Vec3<L>) -> Option<Spectrum<L>> {
+pub(crate) fn medium_towards<L: Lanes>(tables: &Tables, point: &Vertex<L>, direction: Vec3<L>) -> Option<Spectrum<L>> {
     let l = point.bounces.lanes();
     if tables.any_absorbing {
         Some(point.media_towards(point.at.geometric.dot(direction).lt(0.0), l.m(false), tables.any_volume))
@@ -51,7 +51,7 @@ pub(crate) fn start<L: Lanes>(tables: &Tables, point: &Vertex<L>, direction: Vec
 
 /// Begins the sums of all queued shadow rays with what they start in.
 #[inline(always)]
-pub(crate) fn begin<L: Lanes>(l: L, shadows: &ShadowRays, trace: &mut ShadowTrace) {
+pub(crate) fn begin_depths<L: Lanes>(l: L, shadows: &ShadowRays, trace: &mut ShadowTrace) {
     for at in (0..shadows.count).step_by(L::COUNT) {
         trace.depth.store(Spectrum::zero(l), at);
         trace.around.store(shadows.medium.load(l, at), at);
@@ -60,8 +60,8 @@ pub(crate) fn begin<L: Lanes>(l: L, shadows: &ShadowRays, trace: &mut ShadowTrac
 
 /// Adds hits on the surface of what fills a mesh to the sums; `sides` are 1 where rays enter it, else -1.
 #[inline(always)]
-pub(crate) fn pass<L: Lanes>(l: L, interior: [f32; 3], hits: &[TransparentHit], sides: &Column, trace: &mut ShadowTrace) {
-    trace.interior.store(filling(l, interior), 0);
+pub(crate) fn add_depths<L: Lanes>(l: L, interior: [f32; 3], hits: &[TransparentHit], sides: &Column, trace: &mut ShadowTrace) {
+    trace.interior.store(absorption(l, interior), 0);
     for (hit, side) in hits.iter().zip(&sides[..]) {
         trace.depth.add(hit.ray as usize, &trace.interior, 0, -side * hit.t);
         trace.around.add(hit.ray as usize, &trace.interior, 0, *side);
@@ -70,7 +70,7 @@ pub(crate) fn pass<L: Lanes>(l: L, interior: [f32; 3], hits: &[TransparentHit], 
 
 /// Dims what shadow rays carry by their optical depth.
 #[inline(always)]
-pub(crate) fn dim<L: Lanes>(l: L, shadows: &mut ShadowRays, trace: &ShadowTrace) {
+pub(crate) fn attenuate<L: Lanes>(l: L, shadows: &mut ShadowRays, trace: &ShadowTrace) {
     for at in (0..shadows.count).step_by(L::COUNT) {
         let end = l.load(&shadows.rays.t_max, at);
         let around = trace.around.load(l, at);
