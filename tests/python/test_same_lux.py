@@ -1,4 +1,4 @@
-"""All that measures finds the same lux, in ten scenes whose light comes by glass, mirrors and diffusers.
+"""All that measures finds the same lux, in twelve scenes whose light comes by glass, mirrors and diffusers.
 
 A square of 0.4 m on the floor is measured by an illumination map, a calculation grid, a baked texture, the illuminance pass and the luminance of a
 picture, π / ρ times. Of luminaires a goniophotometer makes an EULUMDAT file too, which lights the same square in an empty room. Each is held to the map, which
@@ -64,6 +64,19 @@ def shell(scene, **glass):
 
 def tinted_shell(scene):
     shell(scene, transmission_color=(0.5, 0.5, 0.5), transmission_depth=0.01)
+
+
+def solid(scene):
+    """A lamp off the middle of a ball of solid glass."""
+    lamp(scene)
+    sphere(scene, 0.1, (0.02, 0, 1.01), "ball", **CLEAR)
+
+
+def tank(scene):
+    """A square that glows in water."""
+    glow = [[-0.05, -0.05, 0.9], [-0.05, 0.05, 0.9], [0.05, 0.05, 0.9], [0.05, -0.05, 0.9]]
+    wall(scene, glow, "glow", emission_color=(3e4,) * 3, base_color=(0, 0, 0), **MATT)
+    box(scene, [-0.3, -0.3, 0.6], [0.3, 0.3, 1.1], "water", **{**CLEAR, "specular_ior": 1.33})
 
 
 def lens(scene):
@@ -138,6 +151,8 @@ WIDE = {"file": "nearly as wide as it is far off: its far field is not what ligh
 SCENES = {
     "glass shell": (shell, GREY, {}),
     "tinted glass": (tinted_shell, GREY, {}),
+    "solid glass": (solid, GREY, {}),
+    "water": (tank, GREY, WIDE),
     "lens": (lens, GREY, WIDE),
     "mirror": (mirror, GREY, WIDE),
     "black floor": (block, 0.0, {"picture": "a black floor shows nothing", **WIDE}),

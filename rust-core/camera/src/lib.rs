@@ -70,6 +70,8 @@ pub struct CameraTable {
     pub motion: Option<Arc<Motion>>,
     /// Absorption a metre of what its middle stands in.
     pub medium: [f32; 3],
+    /// Squared index of it: what paths carry is radiance over it.
+    pub squared_index: f32,
 }
 
 /// A ray for each lane.

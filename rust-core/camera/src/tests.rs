@@ -19,6 +19,7 @@ pub(crate) fn table(lens: Lens, resolution: [f32; 2], size: [f32; 2], middle: [f
         clipping: [0.1, 100.0],
         motion: None,
         medium: [0.0; 3],
+        squared_index: 1.0,
     }
 }
 

@@ -90,6 +90,7 @@ impl LightTable {
         }
         let sent = self.fallen(l, index, hit - from, self.le(l, &light, wi, uv));
         let sent = self.filtered(l, index, hit, -wi, (hit - from).length(), sent);
+        let sent = self.seen_outside(l, index, sent);
         (sent.keep_if(valid), pdf.keep_if(valid))
     }
 

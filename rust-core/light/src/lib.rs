@@ -29,6 +29,7 @@ mod light_kind;
 mod light_sampler;
 mod linked_sampler;
 mod links;
+mod medium;
 mod mis;
 mod portal;
 mod projected_area;

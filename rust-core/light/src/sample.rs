@@ -85,6 +85,7 @@ impl LightTable {
         };
         let radiance = self.fallen(l, index, aim.wi * aim.distance, radiance);
         let radiance = self.filtered(l, index, aim.wi * aim.distance + *p, -aim.wi, aim.distance, radiance);
+        let radiance = self.seen_outside(l, index, radiance);
         let pdf = aim.pdf * probability;
         let facing = light.is_kind(LightKind::FacingDisk);
         let enclosed = if facing.any() { facing & facing_disk::encloses(light, *p) } else { facing };

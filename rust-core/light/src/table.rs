@@ -59,6 +59,8 @@ pub struct LightTable {
     pub(crate) factors: Vec<f32>,
     /// By light, the two numbers of its falloff; empty where all fall by nature.
     pub(crate) falloffs: Vec<f32>,
+    /// By light, 1 over the squared index of what it stands in; empty where no light stands in anything.
+    pub(crate) media: Vec<f32>,
     /// Whether light sampling alone finds some light.
     pub(crate) any_alone: bool,
     /// Whether shading programs know what some lights emit.
@@ -138,6 +140,7 @@ impl LightTable {
             portals,
             factors,
             falloffs,
+            media: Vec::new(),
             any_alone,
             any_shaded: records.iter().any(|record| record.shaded),
             gates: Gates::default(),

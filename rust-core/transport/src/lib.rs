@@ -36,6 +36,7 @@ pub use stage::light::glow::{GlowPoint, emitted};
 pub use stage::shade::forward::{Arriving, Picture, Splat, Wanted};
 pub use stage::start::emit::{Emission, RayTable};
 pub use stage::start::generate::{TileArea, generate};
+pub use stage::start::index::squared_indices_at;
 pub use stage::start::places::{Place, PlaceTable, Viewpoint};
 pub use stage::start::sensors::{Sensor, SensorTable};
 pub use stage::start::start_media::medium_at;

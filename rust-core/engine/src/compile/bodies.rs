@@ -1,10 +1,11 @@
-//! Placed meshes that absorb inside, and which of them lamps may stand in.
+//! Placed meshes that absorb or refract, and in which of those that absorb lamps may stand.
 
-use super::bounds::Bounds;
+use super::{bounds::Bounds, casters::is_one};
 use crate::{
+    bsdf::Surface,
     light::LightTable,
-    scene::{Material, Scene},
-    transport::{Bodies, Body},
+    scene::{Instances, Material, Scene},
+    transport::{Bodies, Body, MaterialTable},
 };
 
 /// More pairs of bodies and lights are not tested: lamps may then stand in any body.
@@ -15,32 +16,49 @@ pub(super) fn of(
     scene: &Scene,
     mesh_bounds: &[Bounds],
     rows: impl Iterator<Item = (u32, u32, u32)>,
-    lights: &LightTable,
+    (materials, lights): (&MaterialTable, &LightTable),
     origin: [f64; 3],
 ) -> Bodies {
     let filled: Vec<bool> = scene.materials.iter().map(absorbs).collect();
-    if !filled.contains(&true) {
+    let is_filled = |id: usize| filled.get(id) == Some(&true);
+    let fill = |set: &Instances| Fill {
+        absorbs: set.materials.iter().any(|id| is_filled(id.index())),
+        refracts: is_one(set, materials, refracts),
+    };
+    let fills: Vec<Fill> = scene.instances.iter().map(fill).collect();
+    if !fills.iter().any(|fill| fill.absorbs || fill.refracts) {
         return Bodies::default();
     }
-    let is_filled = |id: usize| filled.get(id) == Some(&true);
-    let holds: Vec<bool> = scene.instances.iter().map(|set| set.materials.iter().any(|id| is_filled(id.index()))).collect();
     // Nothing stands in a hair.
     let strands = scene.meshes.len()..scene.meshes.len() + scene.curves.len();
     let body = |(instance, (set, number, mesh)): (usize, (u32, u32, u32))| {
         let is_strand = strands.contains(&(mesh as usize));
         let transform = scene.instances.get(set as usize)?.transforms.get(number as usize)?;
-        let holds = !is_strand && holds.get(set as usize) == Some(&true);
-        let bounds = holds.then(|| mesh_bounds.get(mesh as usize))??.transformed(transform);
+        let fill = fills.get(set as usize).filter(|fill| !is_strand && (fill.absorbs || fill.refracts))?;
+        let bounds = mesh_bounds.get(mesh as usize)?.transformed(transform);
         let corner = |place: [f64; 3]| [0, 1, 2].map(|axis| (place[axis] - origin[axis]) as f32);
-        Some(Body { instance: instance as u32, bounds: [corner(bounds.min), corner(bounds.max)] })
+        Some((fill, Body { instance: instance as u32, bounds: [corner(bounds.min), corner(bounds.max)] }))
     };
-    let all: Vec<Body> = rows.enumerate().filter_map(body).collect();
+    let bodies: Vec<(&Fill, Body)> = rows.enumerate().filter_map(body).collect();
+    let that = |holds: fn(&Fill) -> bool| bodies.iter().filter(|(fill, _)| holds(fill)).map(|(_, body)| *body).collect::<Vec<_>>();
+    let (all, refracting) = (that(|fill| fill.absorbs), that(|fill| fill.refracts));
     let balls: Vec<([f32; 3], f32)> = (0..lights.len() as u32).filter_map(|light| lights.ball(light)).collect();
     let around_lights = match all.len().saturating_mul(balls.len()) <= MOST_PAIRS {
         true => all.iter().filter(|body| balls.iter().any(|ball| meets(body, ball))).copied().collect(),
         false => all.clone(),
     };
-    Bodies { all, around_lights }
+    Bodies { all, around_lights, refracting }
+}
+
+/// What the placements of a set are full of.
+struct Fill {
+    absorbs: bool,
+    refracts: bool,
+}
+
+/// Whether light may be bent on its way into a mesh.
+fn refracts(surface: &Surface) -> bool {
+    surface.lobes.transmission && !surface.switches.thin_walled
 }
 
 /// Whether a material may absorb what goes through the meshes that it covers.

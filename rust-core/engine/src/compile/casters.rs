@@ -54,7 +54,7 @@ pub(super) fn report_blockers(scene: &Scene, links: &Links, diagnostics: &mut Ve
 }
 
 /// Whether a closure of any of the materials is of some kind.
-fn is_one(instances: &Instances, materials: &MaterialTable, of_kind: impl Fn(&Surface) -> bool) -> bool {
+pub(super) fn is_one(instances: &Instances, materials: &MaterialTable, of_kind: impl Fn(&Surface) -> bool) -> bool {
     let shading = |material: usize| materials.numbers.get(material).copied();
     instances.materials.iter().filter_map(|material| shading(material.index())).any(|shading| {
         let surfaces = match shading {

@@ -59,6 +59,7 @@ impl<'a> Probe<'a> {
             any_absorbing: false,
             any_volume: false,
             bodies: Bodies::default(),
+            glow_in_media: Vec::new(),
             origin,
         };
         Ok(Self { tables, cancel })

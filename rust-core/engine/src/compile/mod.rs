@@ -19,6 +19,7 @@ mod glow;
 mod goniograms;
 mod instances;
 mod kept;
+mod lamps_in_media;
 mod light_alone;
 mod light_groups;
 mod light_images;
@@ -109,7 +110,8 @@ fn laid_out(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicBool
     report(scene, &looks.materials, &lights.table, &mut diagnostics);
     let casters = Casters::of(scene, &shapes.mesh_bounds, &looks.materials, shapes.origin);
     let (of_light, kept_lights) = (mem::take(&mut lights.of_light), mem::take(&mut lights.kept));
-    let tables = tables(scene, bvh, &mut looks, &mut shapes, lights);
+    let mut tables = tables(scene, bvh, &mut looks, &mut shapes, lights);
+    lamps_in_media::find(scene, &mut tables, &of_light, &mut diagnostics);
     let mut compiled = CompiledScene {
         tables,
         cameras: scene.cameras.clone(),
@@ -185,7 +187,7 @@ fn tables(scene: &Scene, bvh: Tlas, looks: &mut Looks, shapes: &mut Shapes, ligh
     let any_absorbing = any_volume
         || scene.materials.iter().flat_map(|material| &material.closures).any(|closure| closure.input("transmission_depth").is_some());
     let rows = geometry.instances.iter().take(first_light_instance as usize).map(|row| (row.set, row.number, row.mesh));
-    let bodies = bodies::of(scene, &shapes.mesh_bounds, rows, &lights.table, origin);
+    let bodies = bodies::of(scene, &shapes.mesh_bounds, rows, (&materials, &lights.table), origin);
     Tables {
         bvh,
         first_light_instance,
@@ -203,6 +205,7 @@ fn tables(scene: &Scene, bvh: Tlas, looks: &mut Looks, shapes: &mut Shapes, ligh
         any_absorbing,
         any_volume,
         bodies,
+        glow_in_media: Vec::new(),
         origin,
         geometry,
         materials,

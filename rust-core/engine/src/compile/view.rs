@@ -8,7 +8,7 @@ use crate::{
     film::{ChannelLayout, Film, GROUP, PictureProjection, PictureView, Placement, tabulate},
     memory::room_for,
     scene::{Antialiasing, Aov, Background, Camera, Crop, Integrator, Projection, Settings},
-    transport::{Distance, Estimator, FirstLight, Limits, Mist, Passes, PathFilter, Transport, medium_at},
+    transport::{Distance, Estimator, FirstLight, Limits, Mist, Passes, PathFilter, Transport, medium_at, squared_indices_at},
 };
 use gonio_simd::Execution;
 
@@ -53,9 +53,11 @@ impl View {
         let table = camera_table(camera, settings, scene.tables.origin)?;
         let motion = motion::of_camera(camera, settings, scene.tables.origin);
         let medium = medium_at(&scene.tables, camera.transform.columns[3]);
-        let table = CameraTable { motion, medium, ..table };
+        let squared_index = squared_indices_at(&scene.tables, &[table.position])[0];
+        let table = CameraTable { motion, medium, squared_index, ..table };
         let shutter = motion::shutter(&scene.tables.bvh, table.motion.as_deref(), settings);
-        let mut transport = Transport { shutter, ..transport(scene, settings, execution, table.position, table.axes[2].map(|x| -x)) };
+        let forward = table.axes[2].map(|x| -x);
+        let mut transport = Transport { shutter, squared_index, ..transport(scene, settings, execution, table.position, forward) };
         transport.passes.motion = motion_vectors::cameras(camera, settings, |camera| camera_table(camera, settings, scene.tables.origin))?;
         let transport = Transport { passes: deep_of(&table, transport.passes.clone()), ..transport };
         let placement = match settings.antialiasing {
@@ -118,6 +120,7 @@ pub(crate) fn transport(scene: &CompiledScene, settings: &Settings, execution: E
         },
         eye,
         forward,
+        squared_index: 1.0,
         seed: settings.seed,
         samples: settings.samples,
         light_cache: None,
@@ -294,6 +297,7 @@ fn camera_table(camera: &Camera, settings: &Settings, origin: [f64; 3]) -> Resul
         clipping: [camera.clipping[0].max(0.0) as f32, camera.clipping[1].min(f64::from(f32::MAX)) as f32],
         motion: None,
         medium: [0.0; 3],
+        squared_index: 1.0,
     })
 }
 

@@ -26,6 +26,11 @@ impl Reading {
         Self { value: self.value + other.value, standard_error: self.standard_error.hypot(other.standard_error) }
     }
 
+    /// So many times as much.
+    pub(super) fn times(&self, factor: f64) -> Self {
+        Self { value: self.value * factor, standard_error: self.standard_error * factor }
+    }
+
     /// Whether there is a figure; none where light that no path from the meter finds has no room to be counted.
     pub fn is_known(&self) -> bool {
         !self.value.is_nan()

@@ -15,7 +15,7 @@ use crate::{
     error::{Error, Result},
     render::{LightPaths, Progress},
     scene::{Measurand, Meter, Settings},
-    transport::{Sensor, medium_at},
+    transport::{Sensor, medium_at, squared_indices_at},
 };
 use gonio_simd::Execution;
 use std::{f64::consts::PI, sync::Arc};
@@ -89,6 +89,7 @@ impl Probe {
             looks: self.looks,
             // On the side that is measured, for sensors lie on surfaces.
             medium: medium_at(&scene.tables, add(self.position, scaled(self.normal, BEFORE * error))),
+            squared_index: 1.0,
         }
     }
 }
@@ -115,7 +116,10 @@ pub(super) fn sense(
     watch: &mut Watch<'_>,
 ) -> Result<Sensed> {
     let radius = Some(scene.bounds.radius()).filter(|radius| radius.is_finite()).unwrap_or(0.0);
-    let sensors: Vec<Sensor> = probes.iter().map(|probe| probe.sensor(scene, radius)).collect();
+    let mut sensors: Vec<Sensor> = probes.iter().map(|probe| probe.sensor(scene, radius)).collect();
+    let before = |sensor: &Sensor| [0, 1, 2].map(|axis| sensor.normal[axis].mul_add(BEFORE as f32 * sensor.error, sensor.position[axis]));
+    let squared = squared_indices_at(&scene.tables, &sensors.iter().map(before).collect::<Vec<_>>());
+    sensors.iter_mut().zip(squared).for_each(|(sensor, squared)| sensor.squared_index = squared);
     let settings = unlimited(settings);
     let sensing = Sensing { scene, sensors: &sensors, settings: &settings, execution };
     let starts = light_paths_measure::for_meters(scene, &settings, watch.cancel);
@@ -163,7 +167,7 @@ fn with_light_paths(
     let all = sensing.sensors.iter().zip(discs.all()).zip(own.iter().zip(&brought));
     let readings = all.map(|((sensor, disc), (own, brought))| match (sensor.looks, disc.radius > 0.0) {
         (true, _) => *own,
-        (false, true) => own.plus(brought),
+        (false, true) => own.plus(&brought.times(f64::from(sensor.squared_index))),
         (false, false) => Reading { value: f64::NAN, standard_error: f64::NAN },
     });
     Ok(readings.collect())

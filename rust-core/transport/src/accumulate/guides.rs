@@ -25,9 +25,11 @@ pub(crate) fn add_guides<L: Lanes>(transport: &Transport, point: &Vertex<L>, lob
     if !seen.any() {
         return;
     }
+    // Guides know nothing of what the camera stands in.
+    let throughput = point.core.throughput * (1.0 / transport.squared_index);
     let [albedo, normal] = &mut sums.guides;
-    add_rgb(albedo, point.core.slot, to_film(lobes.albedo() * point.core.throughput), seen);
-    add_rgb(normal, point.core.slot, (point.at.frame.z * point.core.throughput.max_component()).into(), seen);
+    add_rgb(albedo, point.core.slot, to_film(lobes.albedo() * throughput), seen);
+    add_rgb(normal, point.core.slot, (point.at.frame.z * throughput.max_component()).into(), seen);
 }
 
 /// Whether a pixel's path has met nothing yet but mirrors and smooth glass.

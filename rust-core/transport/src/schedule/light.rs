@@ -10,7 +10,7 @@ use crate::stage::light::glow::shine_starts;
 use crate::stage::light::shadow::occlude;
 use crate::stage::shade::closure::choose_closures;
 use crate::stage::shade::forward::{LightIntegrator, Splat, Wanted};
-use crate::stage::start::emit::{Emission, emit};
+use crate::stage::start::emit::{Emission, dim_starts, emit};
 use crate::stage::start::start_media::start_media;
 use crate::stage::walk::subsurface::{WalkContext, walk};
 use crate::state::light_paths::{Arrivals, Escapes};
@@ -80,7 +80,12 @@ impl LightTracer<'_> {
         ws.times.draw(self.transport.execution, self.transport.shutter.as_deref(), &sampler, &runs, 0);
         let starts = &mut ws.queues.light_paths.starts;
         dispatch!(self.transport.execution, l => emit(l, self.tables, self.emission, &first, batch, starts, &mut ws.paths));
-        if self.tables.lights.any_shaded() && matches!(self.emission, Emission::Lights(_)) {
+        let from_lights = matches!(self.emission, Emission::Lights(_));
+        if self.tables.lights.has_media() && from_lights && !self.wanted.is_whole() {
+            let starts = &mut ws.queues.light_paths.starts;
+            dispatch!(self.transport.execution, l => dim_starts(l, self.tables, starts));
+        }
+        if self.tables.lights.any_shaded() && from_lights {
             let room = ws.queues.light_paths.glow.get_or_insert_default();
             shine_starts(self.tables, self.transport.execution, &ws.paths, &mut ws.queues.light_paths.starts, room);
         }

@@ -14,7 +14,8 @@
 //! - [`light::merge`] takes up photons behind mirrors and smooth glass.
 //! - [`light::shadow`] traces shadow rays and adds what arrives; [`light::transmittance`] says what light loses in what fills meshes.
 //!
-//! `schedule/light` starts light paths by [`start::emit`], and shades by [`shade::forward`]. [`start::start_media`] says what absorbs where paths start.
+//! `schedule/light` starts light paths by [`start::emit`], and shades by [`shade::forward`]. [`start::start_media`] says what absorbs where paths start,
+//! and [`start::index`] what refracts there.
 //! [`find::segments`] are the ways that light paths go.
 
 pub(crate) mod find;

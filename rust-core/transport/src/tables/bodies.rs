@@ -1,6 +1,6 @@
-//! Placed meshes that hold what absorbs, among which is found what a place is in.
+//! Placed meshes that hold what absorbs or refracts, among which is found what a place is in.
 
-/// A placed mesh that is full of what absorbs.
+/// A placed mesh that is full of something.
 #[derive(Clone, Copy, Debug)]
 pub struct Body {
     /// Its instance.
@@ -12,8 +12,18 @@ pub struct Body {
 /// All of a scene.
 #[derive(Clone, Debug, Default)]
 pub struct Bodies {
-    /// Each of them.
+    /// Each that absorbs.
     pub all: Vec<Body>,
-    /// Those that lamps may stand in.
+    /// Those of them that lamps may stand in.
     pub around_lights: Vec<Body>,
+    /// Each that refracts.
+    pub refracting: Vec<Body>,
+}
+
+impl Body {
+    /// Whether a place is within the bounds.
+    pub fn may_hold(&self, place: [f32; 3]) -> bool {
+        let [min, max] = self.bounds;
+        (0..3).all(|axis| (min[axis]..=max[axis]).contains(&place[axis]))
+    }
 }

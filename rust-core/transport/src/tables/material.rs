@@ -162,6 +162,10 @@ impl MaterialTable {
         let (emissive, even) = self.emission(number);
         emissive && even.is_none() && !self.glows_by_program(number)
     }
+    /// Whether a material of the geometry may emit.
+    pub fn emits(&self, number: u32) -> bool {
+        self.emission(number).0
+    }
     /// What a material of the geometry emits everywhere alike, if it does so at all.
     pub fn even_emission(&self, number: u32) -> Option<[f32; 3]> {
         let (emissive, even) = self.emission(number);

@@ -29,6 +29,8 @@ pub struct Transport {
     pub eye: [f32; 3],
     /// The camera's viewing direction, see `eye`.
     pub forward: [f32; 3],
+    /// Squared index of what the camera stands in, by which what it sees is brighter than what paths carry.
+    pub squared_index: f32,
     /// Seed of the random numbers.
     pub seed: u32,
     /// Samples a pixel in the whole render.

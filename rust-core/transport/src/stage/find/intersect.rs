@@ -184,7 +184,7 @@ fn add_environment<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths
         let clear = if transport.limits.clear_roughness < 0.0 { l.m(false) } else { alive & (flags & flag::CLEAR).ne(0) };
         if clear.any() {
             // What glass lets pass of nothing does not cover what is behind.
-            add(&mut deposits.sums.alpha, slot, -throughput.mean(), clear);
+            add(&mut deposits.sums.alpha, slot, -throughput.mean() * (1.0 / transport.squared_index), clear);
         }
         let alive = if transport.shows_environment { alive } else { alive.and_not(camera | clear) };
         let (delta, kind) = ((flags & flag::DELTA).ne(0), (flags >> flag::LAST_SHIFT) & 3);

@@ -35,6 +35,13 @@ pub struct Wanted<'a> {
     pub picture: Option<Picture<'a>>,
 }
 
+impl Wanted<'_> {
+    /// Whether paths carry flux as it is. Else they carry what camera paths would find, for what is found by both has to be the same.
+    pub(crate) fn is_whole(&self) -> bool {
+        !self.specular_only && self.picture.is_none()
+    }
+}
+
 /// Which arrivals are noted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Arriving {
@@ -109,8 +116,7 @@ impl Integrator for LightIntegrator<'_> {
         let numbers = way_numbers(chunk, material, point);
         let hits =
             Hits { values: &values, at, wo: point.local_wo, entering, normals: normals.as_ref(), walks: true, numbers: numbers.as_ref() };
-        // What camera paths find too has to be as they find it.
-        let whole = !self.wanted.specular_only && self.wanted.picture.is_none();
+        let whole = self.wanted.is_whole();
         let light = LightHits { hits, geometric: point.at.frame.to_local(point.at.geometric), whole };
         let mut room = Lobes::empty(l);
         let going_on = present & point.bounces.lt(transport.limits.max_bounces + 1) & transport.limits.allow(point.core.counts);
@@ -235,7 +241,7 @@ fn connect<'s, L: Lanes>(
     let light = l.gather_integers(&starts.light, point.core.slot);
     let scattered =
         if chunk.tables.lights.has_factors() { straight.select(scattered * seen_share(chunk, exact, light), scattered) } else { scattered };
-    let value = starts.carried(l, point.core.slot, point.core.throughput) * scattered * seen.importance;
+    let value = starts.carried(l, point.core.slot, point.core.throughput) * scattered * (seen.importance * picture.camera.squared_index);
     let lit = usable & value.is_lit() & value.max_component().is_finite();
     let to_lens = shadow_ray_to(point.at.position, point.at.geometric, point.at.error, to, seen.distance);
     // The first surface that the camera sees scatters all of it: a light pass each, by the kind of its lobes. What comes later camera paths give to

@@ -252,6 +252,9 @@ fn add_emission<L: Lanes>(
 ) {
     let ChunkContext { l, tables, transport, .. } = *chunk;
     let mut value = emission * point.core.throughput;
+    if !tables.glow_in_media.is_empty() {
+        value = value * l.gather(&tables.glow_in_media, point.instance);
+    }
     let mut present = present;
     if !tables.links.emitters.is_empty() {
         let receiver = chunk.paths.previous(l, point.path).receiver;

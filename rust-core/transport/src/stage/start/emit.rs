@@ -95,6 +95,15 @@ pub(crate) fn emit<L: Lanes>(
     }
 }
 
+/// Lets the flux of lamps that stand in glass or the like count as camera paths see it, which keep radiance behind interfaces.
+#[inline(always)]
+pub(crate) fn dim_starts<L: Lanes>(l: L, tables: &Tables, starts: &mut LightStarts) {
+    for at in (0..BATCH).step_by(L::COUNT) {
+        let factor = tables.lights.medium_factor(l, l.load_integers(&starts.light, at));
+        starts.flux.store(starts.flux.load(l, at) * factor, at);
+    }
+}
+
 /// Numbers of the rays that a batch's register takes from a table.
 #[inline(always)]
 fn numbers<L: Lanes>(l: L, count: usize, batch: u64, first: u32) -> U<L> {

@@ -59,7 +59,7 @@ pub fn generate<L: Lanes>(
         };
         let raster = [(x + area.min[0]).to_float() + 0.5 + u, (y + area.min[1]).to_float() + 0.5 + v];
         let ray = if times.is_empty() { camera.ray(l, raster, lens) } else { camera.ray_at(l, raster, lens, l.load(times, slot as usize)) };
-        paths.append(&started(l, &ray, l.iota() + slot, medium), inside & ray.mapped);
+        paths.append(&started(l, &ray, l.iota() + slot, (medium, camera.squared_index)), inside & ray.mapped);
     }
     paths.set_masks();
 }
@@ -76,14 +76,16 @@ pub(crate) fn generate_at<L: Lanes>(l: L, camera: &CameraTable, places: [&[f32];
         y[..end - first].copy_from_slice(&places[1][first..end]);
         slot[..end - first].copy_from_slice(&slots[first..end]);
         let ray = camera.ray(l, [l.load(&x, 0), l.load(&y, 0)], [l.f(0.5); 2]);
-        paths.append(&started(l, &ray, l.load_integers(&slot, 0), medium), l.first(end - first) & ray.mapped);
+        paths.append(&started(l, &ray, l.load_integers(&slot, 0), (medium, camera.squared_index)), l.first(end - first) & ray.mapped);
     }
     paths.set_masks();
 }
 
-/// The path of a camera ray.
+/// The path of a camera ray that starts in something that absorbs and refracts so.
 #[inline(always)]
-fn started<L: Lanes>(l: L, ray: &CameraRay<L>, slot: U<L>, medium: Spectrum<L>) -> PathLanes<L> {
-    let core = PathCore { width: ray.width, spread: ray.spread, medium, ..PathCore::new(l, slot, l.u(flag::CAMERA | flag::DELTA)) };
+fn started<L: Lanes>(l: L, ray: &CameraRay<L>, slot: U<L>, (medium, squared_index): (Spectrum<L>, f32)) -> PathLanes<L> {
+    let throughput = Spectrum::constant(l.f(squared_index));
+    let core =
+        PathCore { throughput, width: ray.width, spread: ray.spread, medium, ..PathCore::new(l, slot, l.u(flag::CAMERA | flag::DELTA)) };
     PathLanes::start(RayLanes { origin: ray.origin, direction: ray.direction, t_min: ray.t_min, t_max: ray.t_max }, core)
 }

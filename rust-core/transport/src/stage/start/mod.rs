@@ -2,6 +2,7 @@
 
 pub(crate) mod emit;
 pub(crate) mod generate;
+pub(crate) mod index;
 pub(crate) mod places;
 pub(crate) mod sensors;
 pub(crate) mod start_media;

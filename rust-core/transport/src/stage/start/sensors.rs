@@ -13,7 +13,7 @@ use crate::words::flag;
 use gonio_bsdf::parameter::spectrum;
 use gonio_camera::sampler::{Runs, TILE, morton_even};
 use gonio_camera::sampler::{Sampler, dimension};
-use gonio_simd::{Column, Lanes, Rgb};
+use gonio_simd::{Column, Lanes, Rgb, Spectrum};
 
 /// A sensor, rebased world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,6 +32,8 @@ pub struct Sensor {
     pub looks: bool,
     /// Absorption a metre of what it stands in.
     pub medium: [f32; 3],
+    /// Squared index of what it stands in: what paths carry is radiance over it.
+    pub squared_index: f32,
 }
 
 /// The sensors of a measurement as columns, and how pixels belong to them.
@@ -49,6 +51,7 @@ pub struct SensorTable {
     turn: Column,
     looks: Column<u32>,
     medium: [Column; 3],
+    squared_index: Column,
 }
 
 /// Logarithm of a tile's side.
@@ -80,6 +83,7 @@ impl SensorTable {
             turn: column(&|sensor| sensor.turn),
             looks,
             medium: std::array::from_fn(|part| column(&|sensor| sensor.medium[part])),
+            squared_index: column(&|sensor| sensor.squared_index),
         }
     }
 
@@ -129,7 +133,8 @@ pub(crate) fn start_sensors<L: Lanes>(
         let looks = l.gather_integers(&sensors.looks, sensor).ne(0);
         let [r, g, b] = &sensors.medium;
         let medium = spectrum(Rgb::new(l.gather(r, sensor), l.gather(g, sensor), l.gather(b, sensor)));
-        let core = PathCore { medium, ..PathCore::new(l, slot, l.u(flag::CAMERA | flag::DELTA)) };
+        let throughput = Spectrum::constant(l.gather(&sensors.squared_index, sensor));
+        let core = PathCore { throughput, medium, ..PathCore::new(l, slot, l.u(flag::CAMERA | flag::DELTA)) };
         let point = MeasureLanes {
             position,
             error: l.gather(&sensors.error, sensor),

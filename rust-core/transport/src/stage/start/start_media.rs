@@ -24,7 +24,7 @@ const MOST: usize = 4096;
 /// Absorption a metre at a place in world space, R, G, B.
 pub fn medium_at(tables: &Tables, place: [f64; 3]) -> [f32; 3] {
     let origin = [0, 1, 2].map(|axis| (place[axis] - tables.origin[axis]) as f32);
-    if !tables.bodies.all.iter().any(|body| holds(body, origin)) {
+    if !tables.bodies.all.iter().any(|body| body.may_hold(origin)) {
         return [0.0; 3];
     }
     let mut rays = Rays::new(PADDING, u8::MAX);
@@ -66,14 +66,9 @@ pub(crate) fn start_media(
     }
 }
 
-fn holds(body: &Body, place: [f32; 3]) -> bool {
-    let [min, max] = body.bounds;
-    (0..3).all(|axis| (min[axis]..=max[axis]).contains(&place[axis]))
-}
-
 /// Lists the rays that start within a body's bounds.
 #[inline(always)]
-fn list_held<L: Lanes>(l: L, body: &Body, rays: &Rays, count: usize, held: &mut Vec<u32>) {
+pub(crate) fn list_held<L: Lanes>(l: L, body: &Body, rays: &Rays, count: usize, held: &mut Vec<u32>) {
     let [min, max] = body.bounds;
     for at in (0..count).step_by(L::COUNT) {
         let mut inside = l.first(count - at);
@@ -87,7 +82,7 @@ fn list_held<L: Lanes>(l: L, body: &Body, rays: &Rays, count: usize, held: &mut 
 }
 
 /// Notes every surface of an instance that the pending rays cross.
-fn cross(tables: &Tables, execution: Execution, instance: u32, rays: &Rays, room: &mut StartRoom) {
+pub(crate) fn cross(tables: &Tables, execution: Execution, instance: u32, rays: &Rays, room: &mut StartRoom) {
     let StartRoom { pending, from, rays: way, instances, hits, crossings, .. } = room;
     from.clear();
     from.resize(pending.len(), 0.0);
