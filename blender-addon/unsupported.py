@@ -82,7 +82,6 @@ LIGHTS = {
     "light falloff": Limit("Light falloffs of suns, several in one lamp, or with smoothing that varies", "suns stay even, the first one counts, unsmoothed"),
     "lamp's light path": Limit("Light Path in lamps: kinds of rays", "every ray counts as one of no kind, as those that light the scene"),
     "lamp bounces": Limit("Most bounces of one light", "the scene's number"),
-    "negative light": Limit("Lamps, surfaces and worlds of negative strength", "dark: they take no light away"),
     "ies elsewhere": Limit(
         "IES textures in worlds, of types A and B on surfaces, with a vector or more than one a lamp", "even light of the strength"
     ),

@@ -22,7 +22,7 @@ def bake(t, total, report):
         directions = _directions(rows, range(top, min(top + 64, rows)))
         values += evaluate(t.graph, [total.input()], directions.shape, _leaves(t, directions, loaded))
     pixels = np.concatenate(values, axis=0).astype(np.float32)
-    pixels[..., :3] = np.nan_to_num(np.maximum(pixels[..., :3], 0.0), posinf=0.0)
+    pixels[..., :3] = np.nan_to_num(pixels[..., :3], posinf=0.0, neginf=0.0)
     pixels[..., 3] = 1.0
     return pixels
 

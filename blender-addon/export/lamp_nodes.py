@@ -81,7 +81,16 @@ def _pattern(t, lamp, matrix, products):
     planes, angles = _directions(lamp)
     light = Light(lamp, matrix, *SAMPLES[lamp.type](lamp, _towards(planes, angles)))
     values = light.values(t, products) / LUMENS_PER_WATT
+    # A goniogram is not negative: what takes light away is a part of its own.
+    signed = ((sign, _goniograms(planes, angles, np.maximum(sign * values, 0.0))) for sign in (1.0, -1.0))
+    return [replace(part, colour=sign * part.colour) for sign, parts in signed for part in parts]
+
+
+def _goniograms(planes, angles, values):
+    """The parts that shine with these values by direction, red, green and blue, none of them negative."""
     most = values.max(axis=0)
+    if not most.any():
+        return []
     scaled = values / np.where(most > 0.0, most, 1.0)
     # A goniogram has no colours: those that spread alike are one part, others shine in red, green and blue apart.
     if np.abs(scaled - scaled[:, [int(most.argmax())]])[:, most > 0.0].max(initial=0.0) < SAME_PATTERN:
@@ -119,7 +128,7 @@ class Light:
         self._normal, self._point, self._uv, self._weights = normal, point, uv, weights
 
     def values(self, t, products):
-        """The sum of products of sources of a graph: red, green and blue of each direction or point, not negative."""
+        """The sum of products of sources of a graph: red, green and blue of each direction or point."""
         total = np.zeros((len(self._normal), 3))
         factors = [factor for product in products for factor in product]
         for first in range(0, len(total), AT_ONCE):
@@ -127,10 +136,7 @@ class Light:
             found = iter(evaluate(t.graph, factors, self._normal[piece].shape, self._leaf(t, piece)))
             for product in products:
                 total[piece] += np.prod([next(found) for _ in product], axis=0)[:, :3]
-        total = np.nan_to_num(total, posinf=0.0, neginf=0.0)
-        if total.min() < 0.0 and t.goniogram is None:
-            t.tell("negative light", active_output(t.root.tree, "Light"), t.root, "Strength that is negative in parts")
-        return np.maximum(total, 0.0)
+        return np.nan_to_num(total, posinf=0.0, neginf=0.0)
 
     def mean(self, t, products):
         """The mean of that."""

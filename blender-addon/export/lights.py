@@ -34,8 +34,6 @@ def _described(group, place, images, report, part):
     shape, radiance, extra = SHAPES[lamp.type](lamp, np.asarray(matrix, dtype=float))
     keeps_size = lamp.type == "AREA"
     texture = None
-    if lamp.energy < 0.0 and max(strength) <= 0.0:
-        report.tell("negative light", "Light", group.name, "Negative strength")
     if part.pixels is not None:
         texture = images.changing(("lamp", group.name, place), f"pattern of {group.name}", part.pixels)
     description = {

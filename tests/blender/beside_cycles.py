@@ -94,8 +94,8 @@ def board(cases, values, **camera):
 
 
 def differences(pair, cases, count):
-    """Of each case of a board the largest difference as a share of the larger of one and the values, and the values where it is; light
-    is never negative in Gonio."""
+    """Of each case of a board the largest difference as a share of the larger of one and the values, and the values where it is; what
+    is negative counts as nothing."""
     cycles, gonio = (np.maximum(picture, 0.0)[::-1].reshape(-1, 3)[: len(cases) * count].reshape(len(cases), count, 3) for picture in pair)
     found = {}
     for number, name in enumerate(cases):

@@ -1,11 +1,11 @@
-"""Passes of data where nothing is, as in Cycles."""
+"""Passes of data where nothing is, and of materials without images, as in Cycles."""
 
 import pytest
 
 
 @pytest.mark.blender
 @pytest.mark.parametrize("smooth", [False, True])
-def test_depth_and_normals_are_those_of_cycles(tmp_path, smooth):
+def test_depth_and_coordinates_are_those_of_cycles(tmp_path, smooth):
     import bpy
     import numpy
     from beside_cycles import scene
@@ -19,7 +19,7 @@ def test_depth_and_normals_are_those_of_cycles(tmp_path, smooth):
         bpy.ops.object.shade_smooth()
     bpy.context.object.data.materials.append(diffuse("Plain", (0.5, 0.5, 0.5)))
     layer = bpy.context.view_layer
-    layer.use_pass_z = layer.use_pass_normal = True
+    layer.use_pass_z = layer.use_pass_uv = layer.use_pass_normal = True
     # The first sample of Cycles lies in a pixel's middle.
     made.cycles.pixel_filter_type, made.cycles.filter_width = "GAUSSIAN", 0.01
     found = {}
@@ -29,7 +29,7 @@ def test_depth_and_normals_are_those_of_cycles(tmp_path, smooth):
             bpy.ops.gonio.settings_from_cycles()
         render(tmp_path / f"{engine}.exr")
         found[engine] = {name: values for name, values in read(tmp_path / f"{engine}.exr").items() if "Combined" not in name}
-    assert found["GONIO"].keys() == found["CYCLES"].keys() and len(found["GONIO"]) == 4
+    assert found["GONIO"].keys() == found["CYCLES"].keys() and len(found["GONIO"]) == 7
     for name, expected in found["CYCLES"].items():
         assert numpy.allclose(found["GONIO"][name], expected, atol=5e-3), (name, found["GONIO"][name], expected)
     depth = found["GONIO"]["ViewLayer.Depth.Z"]

@@ -73,8 +73,6 @@ def subsurface_method(name, version):
 def emission(t, node, context):
     strength = t.input(node, "Strength", context, 1.0)
     colour = t.input(node, "Color", context) * strength
-    if any(value.is_constant and max(value.constant[:3]) <= 0.0 and min(value.constant[:3]) < 0.0 for value in (strength, colour)):
-        t.tell("negative light", node, context, "Negative strength")
     return [closure(t.graph, "Emission", emission_color=colour * LUMENS_PER_WATT)]
 
 

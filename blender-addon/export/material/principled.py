@@ -46,7 +46,9 @@ def principled(t, node, context):
     # The level of 0.5 is the index of refraction's own reflectance.
     parameters["specular_weight"] = t.input(node, "Specular IOR Level", context, 0.5) * 2.0
     parameters["coat_darkening"] = 0.0
-    parameters["emission_color"] = t.input(node, "Emission Color", context) * t.input(node, "Emission Strength", context) * LUMENS_PER_WATT
+    shining = t.input(node, "Emission Color", context) * t.input(node, "Emission Strength", context)
+    # Unlike Emission nodes, this one takes no light away since 5.0.
+    parameters["emission_color"] = (shining.maximum(0.0) if t.version >= (5, 0, 0) else shining) * LUMENS_PER_WATT
     thin_walled = _is_thin_walled(t, node, context)
     if "transmission_weight" in parameters:
         base = parameters["base_color"].clamp()

@@ -142,7 +142,7 @@ impl Reach<'_> {
             coat,
             coat_tint: coat && (0..3).any(|channel| !self.is(p::COAT_COLOR + channel, 1.0)),
             fuzz: self.positive(p::FUZZ_WEIGHT, 1),
-            emission: self.positive(p::EMISSION_COLOR, 3),
+            emission: self.shines(),
             cut_out: !self.is(p::OPACITY, 1.0),
             anisotropic,
             turned: anisotropic && !self.is(p::ROTATION, 0.0),
@@ -170,7 +170,7 @@ impl Reach<'_> {
             metal: reflects,
             transmission: matches!(closure, Closure::Glass | Closure::Refraction),
             fuzz: closure == Closure::Sheen && colour,
-            emission: self.positive(p::EMISSION_COLOR, 3),
+            emission: self.shines(),
             cut_out: !self.is(p::OPACITY, 1.0),
             anisotropic: stretched || fibre,
             turned: stretched && !self.is(p::ROTATION, 0.0),
@@ -191,6 +191,10 @@ impl Reach<'_> {
     /// Whether a film can be there.
     fn film(&self) -> bool {
         self.positive(p::THIN_FILM_WEIGHT, 1) && self.positive(p::THIN_FILM_THICKNESS, 1)
+    }
+    /// Whether it can bring light, or take it away.
+    fn shines(&self) -> bool {
+        (p::EMISSION_COLOR..p::EMISSION_COLOR + 3).any(|place| self.varying[place] || self.constants[place] != 0.0)
     }
     /// Whether any of `width` places can be above zero.
     fn positive(&self, offset: usize, width: usize) -> bool {

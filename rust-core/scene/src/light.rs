@@ -250,6 +250,11 @@ impl Light {
     pub fn new(origin: Origin, shape: LightShape, transform: Transform) -> Self {
         Self { origin, shape, transform, ..Self::default() }
     }
+
+    /// Whether it takes light away, in some colour.
+    pub fn takes_away(&self) -> bool {
+        self.emission.radiance.iter().any(|x| *x < 0.0)
+    }
 }
 
 #[cfg(test)]

@@ -101,10 +101,29 @@ impl<L: Lanes> Spectrum<L> {
     pub fn min_component(self) -> F<L> {
         self.r.min(self.g).min(self.b)
     }
-    /// Whether any component is above zero.
+    /// The components' magnitudes.
+    #[inline(always)]
+    pub fn abs(self) -> Self {
+        Self { r: self.r.abs(), g: self.g.abs(), b: self.b.abs() }
+    }
+    /// Whether any component is not zero: lamps of negative strength take light away.
     #[inline(always)]
     pub fn is_lit(self) -> M<L> {
-        self.max_component().gt(0.0)
+        self.abs().max_component().gt(0.0)
+    }
+    /// The components that do not have the sign of another spectrum's become zero: a part of that.
+    #[inline(always)]
+    pub fn part_of(self, whole: Self) -> Self {
+        Self {
+            r: whole.r.lt(0.0).select(self.r.min(0.0), self.r.max(0.0)),
+            g: whole.g.lt(0.0).select(self.g.min(0.0), self.g.max(0.0)),
+            b: whole.b.lt(0.0).select(self.b.min(0.0), self.b.max(0.0)),
+        }
+    }
+    /// The components below zero become zero where they are no more than what rounding leaves of another spectrum: what is left of that.
+    #[inline(always)]
+    pub fn left_of(self, whole: Self) -> Self {
+        Self { r: left_of(self.r, whole.r), g: left_of(self.g, whole.g), b: left_of(self.b, whole.b) }
     }
 
     /// The components' shares of their sum, equal ones where that is zero: probabilities to choose a component by.
@@ -177,6 +196,14 @@ impl<L: Lanes> Spectrum<L> {
     pub fn keep_if(self, mask: M<L>) -> Self {
         Self { r: self.r.keep_if(mask), g: self.g.keep_if(mask), b: self.b.keep_if(mask) }
     }
+}
+
+/// More than the part of a value that rounding leaves.
+const ROUNDING: f32 = 1e-5;
+
+#[inline(always)]
+fn left_of<L: Lanes>(left: F<L>, whole: F<L>) -> F<L> {
+    (left.lt(0.0) & left.abs().lt(whole.abs() * ROUNDING)).select(left.lanes().f(0.0), left)
 }
 
 impl<L: Lanes> Select<L> for Spectrum<L> {

@@ -79,6 +79,13 @@ fn check_choice<L: Lanes>(l: L) {
     assert_eq!([0.1, 0.5, 0.9].map(|u| chosen([0.0; 3], u)), [10.0, 20.0, 30.0]);
     assert_eq!(bits(Spectrum::constant(l.f(0.3)).constant_value()), bits(l.f(0.3)));
     assert!(!Spectrum::zero(l).is_lit().any() && Spectrum::one(l).is_lit().all());
+    // What takes light away is light too, and its parts have its sign.
+    let spectrum = |x: [f32; 3]| Spectrum::from_rgb(Rgb::splat(l, x));
+    let taken = spectrum([0.0, -2.0, -1.0]);
+    assert!(taken.is_lit().all() && bits(taken.abs().max_component()) == bits(l.f(2.0)));
+    assert_eq!(bits((taken - spectrum([0.5, -0.5, -3.0])).part_of(taken).sum()), bits(l.f(-1.5)));
+    assert_eq!(bits(spectrum([-1e-6, -1.0, 2.0]).left_of(spectrum([1.0, 1.0, 0.0])).sum()), bits(l.f(1.0)));
+    assert_eq!(bits((spectrum([1.0, 2.0, 3.0]) - spectrum([2.0, 0.5, 0.0])).part_of(Spectrum::one(l)).sum()), bits(l.f(4.5)));
 }
 
 #[test]
@@ -119,7 +126,7 @@ fn check_columns<L: Lanes>(l: L) {
     items.copy(3, 40);
     assert_eq!(columns.columns()[0][40], squared);
     let [r, g, b] = [0, 1, 2].map(|c| columns.columns()[c][40]);
-    assert_eq!(columns.sum_of(40), r + g + b);
+    assert_eq!(columns.magnitude_of(40), r.abs() + g.abs() + b.abs());
     assert_eq!(items.gather(l, l.u(40)).1.to_array()[0], 0.5);
     // One lane alone, to a place of its own: its spectrum is multiplied, its number is not.
     items.scatter(light, number, &[50]);

@@ -14,7 +14,7 @@ sys.path += [str(TESTS / "blender"), str(TESTS / "shared")]
 from cryptomatte_reader import checked_manifests, coverage  # noqa: E402
 from scenes import read, render  # noqa: E402
 
-DATA = ("z", "mist", "position", "normal", "object_index", "material_index")
+DATA = ("z", "mist", "position", "normal", "uv", "object_index", "material_index")
 MATTES = ("object", "material", "asset")
 
 

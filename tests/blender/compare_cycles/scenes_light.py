@@ -142,6 +142,16 @@ def sky_hosek_wilkie() -> None:
     sky_world("HOSEK_WILKIE", 3.0, sun_direction=(-0.4, -0.7, 0.6), turbidity=4.0, ground_albedo=0.4)
 
 
+def negative() -> None:
+    """Lamps, a ball and a shader's emission that take away of the light of a bright world and of another lamp."""
+    corner()
+    even_world(0.8)
+    lamp("AREA", 150.0, (-1.2, -1.6, 3.0), (0.5, -0.3, 0.5), size=1.0, color=(1.0, 0.9, 0.8))
+    lamp("POINT", -25.0, (1.7, -1.0, 1.2), color=(0.3, 0.6, 1.0), shadow_soft_size=0.2, use_soft_falloff=False)
+    lamp("SPOT", -60.0, (-1.8, -1.2, 2.2), (0.65, -0.45, 0.0), spot_size=radians(50), spot_blend=0.3, shadow_soft_size=0.1)
+    ball(material("Emission", Color=(1.0, 0.4, 0.2), Strength=-1.0), 0.25, location=(0.2, -1.1, 0.5))
+
+
 def soft_falloff() -> None:
     """Lamps with soft falloff that reach into the floor, the wall and the box."""
     corner()

@@ -26,6 +26,7 @@ SCENES = [
     Scene("light", "area_ellipse"),
     Scene("light", "mesh_emitter", 256, 256),
     Scene("light", "light_linking", 512, 512),
+    Scene("light", "negative", 256, 256),
     Scene("light", "soft_falloff", 384, 384),
     Scene("light", "world_visibility", 256, 256),
     Scene("light", "opaque_shadows", 384, 384),

@@ -52,7 +52,7 @@ def within(index: numpy.ndarray) -> numpy.ndarray:
 def test_data_is_the_same(tmp_path: Path) -> None:
     ours, theirs = both("data", tmp_path)
     names = sorted(name for name in theirs if not name.startswith("Combined"))
-    assert set(names) <= set(ours) and len(names) > 9
+    assert set(names) <= set(ours) and len(names) > 12
     shown("data_passes", [(numpy.minimum(ours[name], 20.0), numpy.minimum(theirs[name], 20.0)) for name in names if numpy.ptp(theirs[name]) > 0.0])
     numbers = [name for name in names if "Index" in name]
     same = numpy.all([ours[name] == theirs[name] for name in numbers], axis=0)

@@ -27,7 +27,7 @@ pub(super) struct Probe<'a> {
     cancel: &'a AtomicBool,
 }
 
-/// What a triangle emits in the mean: luminance, and whether both sides do.
+/// What a triangle emits in the mean: luminance, of magnitudes where it takes light away, and whether both sides do.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Mean {
     pub(super) luminance: f32,
@@ -100,7 +100,7 @@ impl<'a> Probe<'a> {
         let points: Vec<GlowPoint> = triangles.iter().flat_map(|t| of_side(*t, 1.0).chain(of_side(*t, -1.0))).collect();
         let mut values = vec![[0.0; 3]; points.len()];
         emitted(&self.tables, Execution::detect(), &points, room, &mut values);
-        let luminance = |value: &[f32; 3]| crate::colour::luminance(value.map(f64::from)).max(0.0);
+        let luminance = |value: &[f32; 3]| crate::colour::luminance(value.map(|x| f64::from(x).abs()));
         let mean = |values: &[[f32; 3]]| (values.iter().map(luminance).filter(|y| y.is_finite()).sum::<f64>() / count as f64) as f32;
         values.chunks(2 * count).map(|both| [mean(&both[..count]), mean(&both[count..])]).collect()
     }

@@ -32,7 +32,7 @@ const LEAST_SHARE: f64 = 1e-3;
 /// Texels of a dome that its mean is taken of.
 const TEXELS: usize = 4096;
 
-/// Flux of a light that arrives on surfaces which are neither mirrors nor clear glass.
+/// Flux of a light that arrives on surfaces which are neither mirrors nor clear glass, of magnitudes.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Brought {
     pub(super) straight: f64,
@@ -156,13 +156,13 @@ impl Receiver for Tally {
         for entry in 0..arrivals.count {
             let flux = [0, 1, 2].map(|axis| arrivals.flux[axis][entry]);
             if let Some(of_light) = self.arrived.get_mut(arrivals.light[entry] as usize) {
-                of_light.add(arrivals.bounces(entry), mean(flux));
+                of_light.add(arrivals.bounces(entry), mean(flux.map(f32::abs)));
             }
         }
     }
     fn escaped(&mut self, escapes: &Escapes) {
         for entry in 0..escapes.count {
-            self.escaped.add(escapes.bounces[entry], mean([0, 1, 2].map(|axis| escapes.flux[axis][entry])));
+            self.escaped.add(escapes.bounces[entry], mean([0, 1, 2].map(|axis| escapes.flux[axis][entry].abs())));
         }
     }
 }
@@ -216,16 +216,18 @@ fn dome_radiance(record: &LightRecord, images: &[Arc<LightTexture>]) -> f64 {
     dome_mean(record, images, |radiance| radiance)
 }
 
-/// The mean of a function of a dome's radiance over all directions.
+/// The mean of a function of the magnitude of a dome's radiance over all directions.
 pub(super) fn dome_mean(record: &LightRecord, images: &[Arc<LightTexture>], of: impl Fn(f64) -> f64) -> f64 {
     let image = record.texture.and_then(|number| images.get(number as usize)).filter(|image| image.width * image.height > 0);
-    let own = mean(record.radiance);
+    let own = mean(record.radiance.map(f32::abs));
     let found = image.map_or(of(own), |image| {
         let step = (image.width * image.height / TEXELS).max(1);
         // Rows shrink towards the poles.
         let weight = |texel: usize| (PI * ((texel / image.width) as f64 + 0.5) / image.height as f64).sin();
         let texels = || (0..image.width * image.height).step_by(step);
-        let value = |texel: usize| image.rgb.get(3 * texel..3 * texel + 3).map_or(0.0, |rgb| of(own * mean([rgb[0], rgb[1], rgb[2]])));
+        let value = |texel: usize| {
+            image.rgb.get(3 * texel..3 * texel + 3).map_or(0.0, |rgb| of(own * mean([rgb[0], rgb[1], rgb[2]].map(f32::abs))))
+        };
         texels().map(|texel| weight(texel) * value(texel)).sum::<f64>() / texels().map(weight).sum::<f64>()
     });
     if found.is_finite() { found.max(0.0) } else { 0.0 }

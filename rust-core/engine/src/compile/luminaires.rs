@@ -38,7 +38,7 @@ pub(crate) struct Luminaire {
     pub(crate) casts_shadow: bool,
 }
 
-/// The scene's lights that have a place and no image over them, seen from an origin in world space.
+/// The scene's lights that have a place and no image over them and take no light away, seen from an origin in world space.
 pub(crate) fn luminaires(scene: &Scene, origin: [f64; 3]) -> Vec<Luminaire> {
     let mut goniograms = CompiledGoniograms::default();
     let mut far_fields = FarFields::default();
@@ -48,7 +48,7 @@ pub(crate) fn luminaires(scene: &Scene, origin: [f64; 3]) -> Vec<Luminaire> {
         let emitters = records.into_iter().map(alone).collect();
         Luminaire { centre: light.transform.point([0.0; 3]), emitters, is_one: light.goniogram.is_some(), casts_shadow: light.casts_shadow }
     };
-    scene.lights.iter().filter(|light| is_luminaire(light)).map(luminaire).collect()
+    scene.lights.iter().filter(|light| is_luminaire(light) && !light.takes_away()).map(luminaire).collect()
 }
 
 /// Whether a light has a place and sends the same everywhere on its surface.

@@ -4,7 +4,7 @@ use super::fill::append_values;
 use super::measured::CompiledMeasured;
 use crate::{
     geometry::{GeometryTable, NONE, PrimvarKind, PrimvarRef},
-    scene::{Closure, Input, Mesh, Operation, PRIMVARS, Primvar, PrimvarInterpolation, Scene},
+    scene::{Aov, Closure, Input, Mesh, Operation, PRIMVARS, Primvar, PrimvarInterpolation, Scene},
 };
 
 /// What texture coordinates are called, the likeliest first.
@@ -28,7 +28,7 @@ pub(super) fn used_names(scene: &Scene, measured: &CompiledMeasured) -> Vec<Stri
     // Surfaces without a material show them too.
     scene.settings.shader_passes.iter().filter_map(|name| name.strip_prefix(PRIMVARS)).for_each(&mut add);
     let closures = || scene.materials.iter().flat_map(|material| &material.closures);
-    if closures().any(|closure| lies_along_coordinates(closure, measured)) {
+    if scene.settings.aovs.contains(&Aov::Uv) || closures().any(|closure| lies_along_coordinates(closure, measured)) {
         let there = |name: &str| {
             let mut primvars = scene.meshes.iter().map(|mesh| &mesh.primvars).chain(scene.instances.iter().map(|placed| &placed.primvars));
             primvars.any(|primvars| primvars.iter().any(|primvar| primvar.name == name))

@@ -64,7 +64,8 @@ pub(super) fn apply(
     let factor = match light.quantity {
         None => Ok(1.0),
         Some(quantity) => {
-            let colour = luminance(light.emission.radiance.map(f64::from));
+            // Its sign says whether the light is taken away.
+            let colour = luminance(light.emission.radiance.map(f64::from)).abs();
             let unit = if colour > 0.0 { 1.0 / colour } else { 0.0 };
             for record in records.iter_mut() {
                 record.radiance = light.emission.radiance.map(|x| (f64::from(x) * unit) as f32);

@@ -1,8 +1,8 @@
 //! How noisy a zone of a tile is, from two halves of its samples, and whether it goes on.
 //!
 //! Every other block of samples belongs to one half. A pixel's error is what separates the halves' luminances, on the scale of what is shown:
-//! divided by the square root of the shown value below white, by the value itself above, as Cycles has it, after Dammertz et al., A Hierarchical
-//! Automatic Stopping Condition for Monte Carlo Global Illumination (2010). A zone's error is the root of the mean square over its pixels.
+//! divided by the square root of the shown value below white, by the value itself above, whatever its sign, as Cycles has it, after Dammertz et al., A
+//! Hierarchical Automatic Stopping Condition for Monte Carlo Global Illumination (2010). A zone's error is the root of the mean square over its pixels.
 //!
 //! Bias: for errors that are symmetric the sum of the halves, which is kept, and their difference, which decides, do not correlate. Where rare
 //! samples are bright they do: a zone that has missed them looks quiet and stays dark. Taking 64 pixels together and a least number of samples
@@ -66,7 +66,7 @@ impl Halves {
         debug_assert_eq!(zone_of(codes.start), zone);
         let pixel = |code: usize| {
             let [a, b] = [self.sums[0][code], self.sums[1][code]];
-            let shown = ((a + b) / all * scale).max(0.0);
+            let shown = ((a + b) / all * scale).abs();
             let error = (a / first - b / second).abs() * share * scale;
             error / (DARK + if shown < 1.0 { shown.sqrt() } else { shown })
         };

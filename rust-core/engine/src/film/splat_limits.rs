@@ -33,12 +33,13 @@ impl PixelSplats {
     pub(super) fn factor(&self, limits: [f32; 2], shows: Shows) -> f64 {
         let mean = |light: [f64; 3]| light.iter().sum::<f64>() / 3.0;
         let (direct, all) = (mean(self.direct), mean(self.all));
-        let kept = |light: f64, limit: f32| if limit > 0.0 && light > f64::from(limit) { f64::from(limit) / light } else { 1.0 };
+        let kept =
+            |light: f64, limit: f32| if limit > 0.0 && light.abs() > f64::from(limit) { f64::from(limit) / light.abs() } else { 1.0 };
         let [of_direct, of_indirect] = [kept(direct, limits[0]), kept(all - direct, limits[1])];
         match shows {
             Shows::Direct => of_direct,
             Shows::Indirect => of_indirect,
-            Shows::Both if all > 0.0 => (of_direct * direct + of_indirect * (all - direct)) / all,
+            Shows::Both if all != 0.0 => (of_direct * direct + of_indirect * (all - direct)) / all,
             Shows::Both => 1.0,
         }
     }
@@ -59,8 +60,10 @@ mod tests {
             ([0.5, 0.6], Shows::Both, (0.5 + 0.6) / 4.0),
             ([2.0, 9.0], Shows::Both, 1.0),
         ] {
-            let found = splats.factor(limits, shows);
-            assert!((found - expected).abs() < 1e-7, "{limits:?} {shows:?}: {found}");
+            let negative = PixelSplats { all: splats.all.map(|x| -x), direct: splats.direct.map(|x| -x) };
+            for found in [splats, negative].map(|splats| splats.factor(limits, shows)) {
+                assert!((found - expected).abs() < 1e-7, "{limits:?} {shows:?}: {found}");
+            }
         }
         assert_eq!([0b000_010, 0b010_000, 0b001_001].map(Shows::of), [Shows::Direct, Shows::Indirect, Shows::Both]);
         assert_eq!(PixelSplats { all: [0.0; 3], direct: [0.0; 3] }.factor([1.0; 2], Shows::Both), 1.0);

@@ -103,7 +103,7 @@ impl SplatLayout {
             let limit = limits[usize::from(!splat.direct)];
             let most = f64::from(limit) * (self.size[0] * self.size[1]) as f64;
             let value = splat.value.map(f64::from);
-            let mean = value.iter().sum::<f64>() / 3.0;
+            let mean = value.iter().map(|x| x.abs()).sum::<f64>() / 3.0;
             let clamp = if limit > 0.0 && mean > most { most / mean } else { 1.0 };
             block.pixels.push(splat.pixel);
             for part in &self.parts {

@@ -6,6 +6,7 @@ use super::{
     opening::Departure,
     reading::{Fluxes, ScreenReading, Value},
     shining::{Sources, power},
+    sources::NEGATIVE,
     tally::{Flux, Instrument, Tally},
 };
 use crate::{
@@ -116,6 +117,10 @@ impl<'a> Run<'a> {
     /// The greatest intensity as files will have it, by the symmetry that they will have, and its direction.
     fn symmetric_peak(&self) -> Result<(Value, [f64; 2])> {
         let estimates = self.intensities();
+        let darkest = estimates.iter().map(Estimate::luminance).fold(0.0, f64::min);
+        if darkest < 0.0 {
+            return Err(Error::setting("luminaire", format!("{darkest:.3} cd leave it in a direction, {NEGATIVE}")));
+        }
         let [emitted, escaped] = [Flux::Emitted, Flux::Escaped].map(|flux| self.flux(flux));
         let measurement = Measurement {
             planes: self.options.angles.c.clone(),

@@ -27,7 +27,7 @@ const MUCH: f64 = 1e-3;
 /// it.
 ///
 /// # Errors
-/// No light within; options out of their ranges; what compiling finds; cancellation.
+/// No light within, or light that is taken away; options out of their ranges; what compiling finds; cancellation.
 pub fn measure(
     scene: &Scene,
     options: &Options,
@@ -40,7 +40,7 @@ pub fn measure(
     options.stop.checked()?;
     options.screen.as_ref().map_or(Ok(()), |screen| screen.checked())?;
     let mut diagnostics = Vec::new();
-    let scene = sources::luminaire(scene, &mut diagnostics);
+    let scene = sources::luminaire(scene, &mut diagnostics)?;
     let compiled = compile(&scene, None, cancel)?;
     diagnostics.extend(compiled.diagnostics.iter().cloned());
     let bounds = sources::bounds(&scene, &options.rays, &Transform::IDENTITY);

@@ -7,6 +7,9 @@ use crate::{
     transport::RayTable,
 };
 
+/// Why light that is taken away is not measured.
+pub(super) const NEGATIVE: &str = "and a luminaire's intensities are zero or more: leave out what takes light away";
+
 /// Rays that were measured of a source, placed in the world.
 #[derive(Clone, Debug, Default)]
 pub struct Rays {
@@ -74,18 +77,24 @@ fn mixed(number: u64) -> u64 {
 }
 
 /// The luminaire's scene: without lights at infinity, portals, and what a picture needs.
-pub(super) fn luminaire(scene: &Scene, diagnostics: &mut Vec<Diagnostic>) -> Scene {
+///
+/// # Errors
+/// A light that takes light away: intensities are not negative.
+pub(super) fn luminaire(scene: &Scene, diagnostics: &mut Vec<Diagnostic>) -> Result<Scene> {
     let belongs = |light: &Light| !light.portal && !light.shape.is_at_infinity();
+    if let Some(light) = scene.lights.iter().find(|light| belongs(light) && light.takes_away()) {
+        return Err(Error::scene(&light.origin, format!("its radiance is {:?}, {NEGATIVE}", light.emission.radiance)));
+    }
     for light in scene.lights.iter().filter(|light| !belongs(light)) {
         diagnostics.push(Diagnostic::warning(&light.origin, "lights at infinity and portals are no part of a luminaire; it is left out"));
     }
-    Scene {
+    Ok(Scene {
         lights: scene.lights.iter().filter(|light| belongs(light)).cloned().collect(),
         cameras: Vec::new(),
         meters: Vec::new(),
         grids: Vec::new(),
         ..scene.clone()
-    }
+    })
 }
 
 /// Bounds of surfaces, lights and rays' starts after a map of the world.

@@ -34,7 +34,7 @@ impl Estimate {
 
     /// The standard error over the value; infinite where there is no value.
     pub fn relative_error(&self) -> f64 {
-        let value = self.luminance();
+        let value = self.luminance().abs();
         if value > 0.0 { self.error() / value } else { f64::INFINITY }
     }
 

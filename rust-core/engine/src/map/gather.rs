@@ -429,7 +429,7 @@ fn finish(
             }
         }
         let known = || map.illuminance.iter().copied().filter(|lux| lux.is_finite());
-        summaries[side].extremes = [known().fold(f32::INFINITY, f32::min), known().fold(0.0, f32::max)];
+        summaries[side].extremes = [known().fold(f32::INFINITY, f32::min), known().reduce(f32::max).unwrap_or(0.0)];
         Some(map)
     });
     SurfaceMap { surface, chart, sides, summaries }

@@ -54,7 +54,7 @@ impl Joining<'_> {
             return self.error <= 0.0;
         }
         let least = all.squares / all.count;
-        part.squares.max(least).sqrt() <= self.error * part.total().max(0.25 * all.total())
+        part.squares.max(least).sqrt() <= self.error * part.total().abs().max(0.25 * all.total().abs())
     }
 }
 

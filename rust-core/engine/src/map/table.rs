@@ -42,7 +42,7 @@ impl Sums {
     }
     /// Standard error over the value; 1 where nothing has arrived.
     pub(super) fn relative_error(&self) -> f64 {
-        if self.total() > 0.0 { (self.squares.sqrt() / self.total()).min(1.0) } else { 1.0 }
+        if self.total() == 0.0 { 1.0 } else { (self.squares.sqrt() / self.total().abs()).min(1.0) }
     }
 }
 

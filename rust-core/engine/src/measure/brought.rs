@@ -72,7 +72,7 @@ pub(super) fn brought(
 
 /// Whether more light paths would not tell more.
 fn is_enough(brought: &Reading, own: &Reading) -> bool {
-    brought.standard_error <= (ENOUGH * (own.value + brought.value)).max(OF_OWN * own.standard_error)
+    brought.standard_error <= (ENOUGH * (own.value + brought.value).abs()).max(OF_OWN * own.standard_error)
 }
 
 /// Flux that crosses discs.

@@ -44,6 +44,9 @@ pub(super) fn ratings(
     let alone = under_luminaires(scene);
     let under_them = Arc::new(compile(&alone, Some(&compiled), watch.cancel)?);
     let direct = sense(&under_them, &probes, &alone.settings, execution, watch)?.readings;
+    for light in scene.lights.iter().filter(|light| is_luminaire(light) && light.takes_away()) {
+        diagnostics.push(Diagnostic::warning(&light.origin, "it takes light away, and so is no source of glare"));
+    }
     let luminaires = luminaires(scene, compiled.tables.origin);
     let rated = eyes.iter().zip(all.iter().zip(&direct)).map(|(eye, (all, direct))| {
         let rest = if all.is_known() { (all.value - direct.value).max(0.0) } else { all.value };

@@ -31,7 +31,7 @@ pub(super) fn meter(scene: &CompiledScene, settings: &Settings, samples: u32, ex
         tracer.trace(view.window.min, view.window.max, &Runs::whole(sample), &mut workspace, cancelled);
     }
     let [red, green, blue] = &workspace.deposits.sums.radiance;
-    let luminances = (0..BATCH).map(|i| luminance([red[i], green[i], blue[i]].map(f64::from)));
+    let luminances = (0..BATCH).map(|i| luminance([red[i], green[i], blue[i]].map(|x| f64::from(x).abs())));
     let (sum, count) = luminances.filter(|y| *y > 0.0 && y.is_finite()).fold((0.0, 0.0), |(sum, count), y| (sum + y.ln(), count + 1.0));
     if !cancelled() {
         scene.workspaces.leave(workspace);

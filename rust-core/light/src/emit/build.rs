@@ -55,7 +55,7 @@ impl EmissionSampler {
                 sampler.powers[light] = if power.iter().all(|x| x.is_finite()) { power } else { [0.0; 3] };
             }
         }
-        let luminous = |power: &[f64; 3]| gonio_image::colour::luminance(power.map(f64::abs));
+        let luminous = |power: &[f64; 3]| gonio_image::colour::luminance(*power);
         sampler.choice = Choice::new(sampler.powers.iter().enumerate().map(|(light, power)| (light as u32, luminous(power))));
         sampler.beams = profiles.beams;
         sampler
@@ -94,13 +94,13 @@ impl EmissionSampler {
         for (place, word) in [at::FIRST, at::COLUMNS, at::SIZE, at::SIZE + 1, at::MODEL, at::PLACES].into_iter().zip(words) {
             out[place] = f32::from_bits(word);
         }
-        [0, 1, 2].map(|k| f64::from(row[field::RADIANCE + k]) * profile.integral[k] * body.unit() * factor[k])
+        [0, 1, 2].map(|k| f64::from(row[field::RADIANCE + k]).abs() * profile.integral[k] * body.unit() * factor[k])
     }
 
     /// Takes in an infinite light; its power through the scene's disk, or through those of the targets.
     fn add_infinite(&mut self, table: &LightTable, light: u32, row: &[f32]) -> [f64; 3] {
         let bits = row[field::FLAGS].to_bits();
-        let radiance = [0, 1, 2].map(|k| f64::from(row[field::RADIANCE + k]));
+        let radiance = [0, 1, 2].map(|k| f64::from(row[field::RADIANCE + k]).abs());
         let whole = if bits & flag::KIND == LightKind::Dome as u32 {
             let image = image_on(table, row).map(|image| image::refined(&image, true));
             if let Some(image) = &image {

@@ -37,7 +37,7 @@ pub(super) fn refined(image: &LightTexture, wraps: bool) -> LightTexture {
     LightTexture { width, height, rgb }
 }
 
-/// Integral over the sphere of a fine latitude–longitude image by component.
+/// Integral over the sphere of a fine latitude–longitude image by component, of magnitudes.
 pub(super) fn over_sphere(image: &LightTexture) -> [f64; 3] {
     let height = image.height as f64;
     let mut sum = [0.0; 3];
@@ -49,10 +49,10 @@ pub(super) fn over_sphere(image: &LightTexture) -> [f64; 3] {
     sum
 }
 
-/// Mean colour of some pixels.
+/// Mean colour of some pixels, of magnitudes.
 pub(super) fn mean(rgb: &[f32]) -> [f64; 3] {
     let pixels = rgb.as_chunks::<3>().0;
-    let sum = pixels.iter().fold([0.0; 3], |sum, pixel| [0, 1, 2].map(|k| sum[k] + f64::from(pixel[k])));
+    let sum = pixels.iter().fold([0.0; 3], |sum, pixel| [0, 1, 2].map(|k| sum[k] + f64::from(pixel[k]).abs()));
     sum.map(|sum| sum / pixels.len().max(1) as f64)
 }
 

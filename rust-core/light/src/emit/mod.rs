@@ -73,7 +73,7 @@ impl EmissionSampler {
     }
 
     /// What a light sends by component in cd·sr; infinite lights: through the disk of the scene's sphere, or of the targets where there are any.
-    /// Zero for lights that were not chosen or send nothing.
+    /// Zero for lights that were not chosen or send nothing. What takes light away counts like what sends it.
     pub fn power(&self, light: u32) -> [f64; 3] {
         self.powers.get(light as usize).copied().unwrap_or_default()
     }

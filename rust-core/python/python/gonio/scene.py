@@ -158,7 +158,7 @@ class Scene(_gonio.Scene):
     ) -> int:
         """Adds a light of a shape: "rectangle" (width, height), "disk" (radius), "sphere" (radius), "cylinder" (radius, length), "point",
         "luminaire" (its goniogram's opening, or another), "distant" (angle in degrees), "dome". Radiance in cd/m² (point and luminaire: cd; a
-        distant light: lux on a facing surface); flat ones shine along local −z.
+        distant light: lux on a facing surface), negative where the light takes light away; flat ones shine along local −z.
 
         One of lumens, lamp_lumens, candela, lux (at metres: a pair), nits or watts in place of it lets the radiance tell the colour alone; so
         does a goniogram of a point or a luminaire, whose factors then are cd. The temperature in K multiplies the colour. `motion` gives its

@@ -48,9 +48,9 @@ impl SpectrumColumns {
     pub fn clear(&mut self) {
         self.0.iter_mut().for_each(|column| column.fill(0.0));
     }
-    /// Sum of the components of one spectrum.
-    pub fn sum_of(&self, at: usize) -> f32 {
-        self.0.iter().map(|column| column[at]).sum()
+    /// Sum of the components' magnitudes of one spectrum.
+    pub fn magnitude_of(&self, at: usize) -> f32 {
+        self.0.iter().map(|column| column[at].abs()).sum()
     }
     /// Multiplies one spectrum by one of others.
     pub fn multiply(&mut self, at: usize, factors: &Self, from: usize) {

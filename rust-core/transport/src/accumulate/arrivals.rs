@@ -27,7 +27,7 @@ impl Deposits {
             if blocked[ray] != 0 {
                 return Arrival::nothing(position, receiver);
             }
-            let value = shadows.contribution.sum_of(ray);
+            let value = shadows.contribution.magnitude_of(ray);
             Arrival { position, distance: shadows.rays.t_max[ray], light: Some(shadows.light[ray]), value, receiver }
         }));
     }

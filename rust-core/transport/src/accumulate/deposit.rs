@@ -98,7 +98,7 @@ impl Deposits {
         self.sums.lights.add(code, slot, to_film(value), chosen.and_not(at_first));
         let Some([diffuse, glossy]) = light.shares else { return };
         let (diffuse, glossy) = (value * diffuse, value * glossy);
-        let transmitted = (value - diffuse - glossy).max(0.0);
+        let transmitted = (value - diffuse - glossy).part_of(value);
         for (kind, part) in [diffuse, glossy, transmitted].into_iter().enumerate() {
             self.sums.lights.add(slot.lanes().u(kind as u32), slot, to_film(part), chosen & at_first & part.is_lit());
         }

@@ -65,7 +65,7 @@ impl Deposits {
         let parts = [
             (diffuse, through + scattering::DIFFUSE),
             (glossy, l.u(scattering::GLOSSY)),
-            ((light.value - diffuse - glossy).max(0.0), l.u(scattering::THROUGH + scattering::GLOSSY)),
+            ((light.value - diffuse - glossy).part_of(light.value), l.u(scattering::THROUGH + scattering::GLOSSY)),
         ];
         for (part, scattering) in parts {
             let asked = expressions.accepted(expressions.after(state, scattering), kind, sampled & part.is_lit());

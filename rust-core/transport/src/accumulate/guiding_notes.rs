@@ -63,7 +63,7 @@ impl GuidingNotes {
     /// Counts light for all vertices that its path went on from.
     #[inline(always)]
     pub(crate) fn found<L: Lanes>(&mut self, slots: U<L>, value: Spectrum<L>, chosen: M<L>) {
-        self.count(&slots.to_array(), &value.mean().to_array(), chosen.bits());
+        self.count(&slots.to_array(), &value.abs().mean().to_array(), chosen.bits());
     }
 
     #[inline(never)]

@@ -169,7 +169,7 @@ impl MaterialTable {
     /// What a material of the geometry emits everywhere alike, if it does so at all.
     pub fn even_emission(&self, number: u32) -> Option<[f32; 3]> {
         let (emissive, even) = self.emission(number);
-        even.filter(|glow| emissive && glow.iter().any(|x| *x > 0.0))
+        even.filter(|glow| emissive && glow.iter().any(|x| *x != 0.0))
     }
     /// Whether a material of the geometry may emit, and what for light sampling, where that is the same everywhere.
     fn emission(&self, number: u32) -> (bool, Option<[f32; 3]>) {

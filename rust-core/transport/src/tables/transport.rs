@@ -128,7 +128,7 @@ impl Limits {
         if !self.clamps_any() {
             return value;
         }
-        let (mean, limit) = (value.mean(), self.ceiling(scattered));
+        let (mean, limit) = (value.abs().mean(), self.ceiling(scattered));
         value * mean.gt(limit).select(limit / mean, mean.lanes().f(1.0))
     }
     /// Whether there is such a limit.

@@ -191,12 +191,13 @@ fn add_environment<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths
         let from = paths.previous(l, path);
         let direction = paths.cone(l, path).direction;
         let (light_cache, camera_and_delta) = (transport.light_cache.as_deref(), [camera, delta]);
-        let mut sent = kernels::eval_escaped(l, tables, light_cache, from, direction, pdf, camera_and_delta, None, kind);
+        let all = kernels::eval_escaped(l, tables, light_cache, from, direction, pdf, camera_and_delta, None, kind);
+        let mut sent = all;
         for number in brought_infinite(tables, transport) {
             let brought = transport.is_brought(flags, l.u(number), alive);
             if brought.any() {
                 let part = kernels::eval_escaped(l, tables, light_cache, from, direction, pdf, camera_and_delta, Some(number), kind);
-                sent = brought.select((sent - part).max(0.0), sent);
+                sent = brought.select((sent - part).left_of(all), sent);
             }
         }
         let throughput =
@@ -211,7 +212,7 @@ fn add_environment<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths
         let told_apart = expressions.filter(|expressions| expressions.infinite.is_none());
         if (transport.passes.groups.wanted() || told_apart.is_some()) && counted.any() {
             // A limit holds for all of them together.
-            let share = value.max_component() / unclamped.max_component().max(f32::MIN_POSITIVE);
+            let share = value.abs().max_component() / unclamped.abs().max_component().max(f32::MIN_POSITIVE);
             for number in tables.lights.infinite_lights() {
                 let value = kernels::eval_escaped(l, tables, light_cache, from, direction, pdf, camera_and_delta, Some(number), kind)
                     * throughput

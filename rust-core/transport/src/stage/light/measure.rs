@@ -131,7 +131,7 @@ fn queue_shadow_ray<L: Lanes>(
     }
     let weight = weight.of(sample, cosine * FRAC_1_PI);
     let value = sample.radiance * point.core.throughput * (cosine * weight / sample.pdf);
-    let lit = usable & value.is_lit() & value.max_component().is_finite();
+    let lit = usable & value.is_lit() & value.abs().max_component().is_finite();
     deposits.note_lost(&point.at, point.alive.and_not(lit));
     let light = Contribution::sampled(sample.light, point.core.slot, value, chunk.l.u(0), None);
     let medium = if chunk.tables.any_absorbing { Some(point.core.medium) } else { None };

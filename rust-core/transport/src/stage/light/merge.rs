@@ -41,7 +41,7 @@ pub(crate) fn merge<L: Lanes>(
         transport.limits.clamped(gathered(l, map, point, lobes, found, most, None) * point.core.throughput * scale, point.bounces + 2);
     let code = ((point.core.flags >> flag::FIRST_SHIFT) & 3) + code::INDIRECT;
     let light = Contribution { slot: point.core.slot, value, code, shares: None, specular: l.m(false), source: Source::Several };
-    let counted = deposits.deposit(transport, &light, chosen & value.is_lit() & value.max_component().is_finite());
+    let counted = deposits.deposit(transport, &light, chosen & value.is_lit() & value.abs().max_component().is_finite());
     let groups = &transport.passes.groups;
     if !groups.wanted() || !counted.any() {
         return;

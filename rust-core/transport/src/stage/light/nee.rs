@@ -80,7 +80,7 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
         value = tables.lights.is_shaded(l, sample.light).select(whole, value);
         ceiling = Some(transport.limits.ceiling(point.bounces + 1));
     }
-    let lit = usable & value.is_lit() & value.max_component().is_finite();
+    let lit = usable & value.is_lit() & value.abs().max_component().is_finite();
     deposits.note_lost(&point.at, present.and_not(lit));
     let code = with_sample(transport.passes.expressions.as_deref(), code_of_sampled(point.core.flags), point.core.flags, !wi.z.gt(0.0));
     let shares = if deposits.wants_shares(transport) { Some(shares(l, lobes, point.local_wo, wi, f)) } else { None };

@@ -242,7 +242,7 @@ fn connect<'s, L: Lanes>(
     let scattered =
         if chunk.tables.lights.has_factors() { straight.select(scattered * seen_share(chunk, exact, light), scattered) } else { scattered };
     let value = starts.carried(l, point.core.slot, point.core.throughput) * scattered * (seen.importance * picture.camera.squared_index);
-    let lit = usable & value.is_lit() & value.max_component().is_finite();
+    let lit = usable & value.is_lit() & value.abs().max_component().is_finite();
     let to_lens = shadow_ray_to(point.at.position, point.at.geometric, point.at.error, to, seen.distance);
     // The first surface that the camera sees scatters all of it: a light pass each, by the kind of its lobes. What comes later camera paths give to
     // the lobe that they have drawn.
@@ -279,7 +279,7 @@ fn as_radiance<L: Lanes>(lobes: &Lobes<'_, L>, to: Vec3<L>, [flux, diffuse]: [Sp
         return flux;
     }
     // What is scattered diffusely passes no interface.
-    let passed = (flux - diffuse).max(0.0);
+    let passed = (flux - diffuse).part_of(flux);
     behind.select(flux - passed * (1.0 - (eta * eta).recip()), flux)
 }
 

@@ -90,7 +90,7 @@ pub(crate) fn emit<L: Lanes>(
         starts.flux.store(ray.flux, first as usize);
         ray.light.store(&mut starts.light, first as usize);
         ray.clear.store(&mut starts.clear, first as usize);
-        let carries = ray.flux.is_lit() & ray.flux.max_component().is_finite();
+        let carries = ray.flux.is_lit() & ray.flux.abs().max_component().is_finite();
         paths.append(&started(l, &ray, slot), carries);
     }
 }

@@ -105,7 +105,7 @@ impl ShadowRays {
 
     /// Holds a contribution within its limit.
     pub(crate) fn clamp(&mut self, ray: usize) {
-        let (mean, most) = (self.contribution.sum_of(ray) / 3.0, self.ceiling[ray]);
+        let (mean, most) = (self.contribution.magnitude_of(ray) / 3.0, self.ceiling[ray]);
         if mean > most {
             self.contribution.scale(ray, most / mean);
         }
