@@ -10,7 +10,7 @@ use crate::stage::light::measure::MeasureContext;
 use crate::stage::light::shadow;
 use crate::stage::shade::catcher;
 use crate::stage::shade::integrator::Integrator;
-use crate::stage::shade::shade::shade_chunk;
+use crate::stage::shade::shading::shade_chunk;
 use crate::state::chunk::{ChunkColumns, ChunkContext};
 use crate::state::paths::Paths;
 use crate::state::queue::shadow_rays::hits_together;

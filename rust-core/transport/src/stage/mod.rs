@@ -6,7 +6,7 @@
 //! - [`find::intersect`] traces them and adds the light of lights they hit; paths fork at shadow catchers ([`shade::catcher`]).
 //! - [`shade::closure`] selects one closure of a mix, [`find::sort`] sorts hits by material.
 //! - [`find::surface`] computes the surface points of a chunk.
-//! - [`shade::shade`] adds emission and AOVs ([`shade::first_surface`]). The schedule's [`shade::integrator`] runs next event estimation ([`light::nee`], [`light::light_queue`],
+//! - [`shade::shading`] adds emission and AOVs ([`shade::first_surface`]). The schedule's [`shade::integrator`] runs next event estimation ([`light::nee`], [`light::light_queue`],
 //!   [`light::terminator`]) and BSDF sampling ([`shade::scatter`], [`shade::guided`] where the guiding field is followed), or sends paths on through portals
 //!   ([`shade::portal`]).
 //! - [`walk::subsurface`] takes the random walks under surfaces, [`walk::exit`] lights where they leave.

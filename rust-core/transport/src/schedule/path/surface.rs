@@ -9,7 +9,7 @@ use crate::stage::shade::guided::{look_up, sampled_by_all, unguided};
 use crate::stage::shade::integrator::Integrator;
 use crate::stage::shade::portal::pass_on;
 use crate::stage::shade::scatter::{send_on, without_cut_outs};
-use crate::stage::shade::shade::{add_seen, guide_and_measure};
+use crate::stage::shade::shading::{add_seen, guide_and_measure};
 use crate::state::chunk::ChunkContext;
 use crate::state::paths::Paths;
 use crate::state::queue::Queues;

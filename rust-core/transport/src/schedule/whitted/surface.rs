@@ -6,7 +6,7 @@ use crate::stage::light::measure::{self, MeasureContext};
 use crate::stage::light::nee::queue_shadow_ray;
 use crate::stage::shade::integrator::Integrator;
 use crate::stage::shade::portal::pass_on;
-use crate::stage::shade::shade::{add_seen, guide_and_measure};
+use crate::stage::shade::shading::{add_seen, guide_and_measure};
 use crate::stage::shade::straight::straight_on;
 use crate::state::chunk::ChunkContext;
 use crate::state::path_core::PathCore;

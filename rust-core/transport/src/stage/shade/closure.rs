@@ -8,7 +8,7 @@ use crate::accumulate::deposit::Deposits;
 use crate::graph::{CHUNK, OutputColumns};
 use crate::kernels;
 use crate::stage::find::surface::{ChunkRays, ChunkSource};
-use crate::stage::shade::shade::add_emission_apart;
+use crate::stage::shade::shading::add_emission_apart;
 use crate::state::chunk::{ChunkColumns, ChunkContext};
 use crate::state::material_order::MaterialOrder;
 use crate::state::paths::Paths;

@@ -7,7 +7,7 @@ use crate::stage::light::nee::{gone_straight, seen_share, shares_of};
 use crate::stage::light::transmittance;
 use crate::stage::shade::integrator::Integrator;
 use crate::stage::shade::scatter::{send_on, without_cut_outs};
-use crate::stage::shade::shade::{normals, way_numbers};
+use crate::stage::shade::shading::{normals, way_numbers};
 use crate::state::chunk::ChunkContext;
 use crate::state::light_paths::ArrivalLanes;
 use crate::state::paths::Paths;

@@ -8,5 +8,5 @@ pub(crate) mod guided;
 pub(crate) mod integrator;
 pub(crate) mod portal;
 pub(crate) mod scatter;
-pub(crate) mod shade;
+pub(crate) mod shading;
 pub(crate) mod straight;

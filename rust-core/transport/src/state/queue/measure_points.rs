@@ -1,4 +1,4 @@
-//! The queue of points whose illuminance is to be measured: `stage/shade/shade.rs` and `stage/start/sensors.rs` fill it, `stage/light/measure.rs` empties it.
+//! The queue of points whose illuminance is to be measured: `stage/shade/shading.rs` and `stage/start/sensors.rs` fill it, `stage/light/measure.rs` empties it.
 
 use crate::state::columns::{Columns3, append3, columns3};
 use crate::state::path_core::PathCore;
