@@ -23,7 +23,7 @@ pub(crate) fn sample_queued<L: Lanes>(
     queue.load(chunk.l, at)
 }
 
-/// Selects and samples lights for all hits of the chunk from a register's beginning on: a function of its own, as those of `kernels.rs`.
+/// Selects and samples lights for all hits of the chunk from a register's beginning on: a function of its own, as those of `kernels`.
 #[inline(never)]
 fn sample_chunk<L: Lanes>(l: L, chunk: &ChunkContext<'_, L>, first: usize, is_fibre: bool, queue: &mut LightSampleQueue) {
     l.vectorize(
