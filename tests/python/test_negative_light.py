@@ -97,7 +97,9 @@ def test_what_takes_light_away_is_the_opposite_of_what_brings_it(way):
     films = [finished(room([(kind, sign * strength) for kind, strength in lights], **settings)) for sign in (1.0, -1.0)]
     for name in settings.get("passes", PASSES):
         bright, dark = (np.asarray(film[name])[..., :3] for film in films)
-        assert bright.max() > 0.0 and np.array_equal(dark, -bright), (name, np.abs(dark + bright).max())
+        # Trees of rays have no indirect light of diffuse surfaces.
+        assert bright.max() > 0.0 or (way, name) == ("whitted", "diffuse_indirect"), name
+        assert np.array_equal(dark, -bright), (name, np.abs(dark + bright).max())
 
 
 # Surfaces hide each other.

@@ -120,7 +120,8 @@ def test_a_dropped_render_stops(floor):
     start = time.monotonic()
     del render
     gc.collect()
-    assert time.monotonic() - start < 0.5 and threading.active_count() == before
+    # All samples would take minutes; a busy machine takes its time to end threads.
+    assert time.monotonic() - start < 10.0 and threading.active_count() == before
 
 
 def test_the_gil_is_free_while_rendering(floor):
@@ -368,7 +369,7 @@ def test_altered_bundles_never_crash(floor, tmp_path, seed):
 
 def test_a_stage_and_its_bundle(render, tmp_path):
     pytest.importorskip("pxr")
-    text = pathlib.Path(__file__).resolve().parents[1] / "usd" / "pictures.py"
+    text = pathlib.Path(__file__).resolve().parents[1] / "shared" / "pictures.py"
     made = {}
     pytest.importorskip("OpenEXR")
     exec(compile(text.read_text(), str(text), "exec"), made)  # noqa: S102

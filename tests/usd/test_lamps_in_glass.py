@@ -63,8 +63,9 @@ def test_a_sphere_inside_out_makes_a_shell(run, tmp_path):
     assert ratio(run, stage(tmp_path, *shell)) == pytest.approx(1.0, rel=1e-3)
 
 
-@pytest.mark.parametrize("shell", [(("a", 0.3, "rightHanded"), ("b", 0.28, "leftHanded")), (("a", 0.1, "rightHanded"),)])
-def test_meters_see_a_lamp_in_clear_glass(run, tmp_path, shell):
+def test_meters_see_a_lamp_in_clear_glass(run, tmp_path):
+    # Not a solid ball: its facets magnify, each by the squared index, so that single directions see no mean.
+    shell = (("a", 0.3, "rightHanded"), ("b", 0.28, "leftHanded"))
     bare, clothed = (
         json.loads(run("measure", stage(tmp_path, *balls, radius=0.005), "--at", "0,0,-1.9999", "--normal", "0,0,1", "--spp", 1024, "--json").stdout)["meters"][0]
         for balls in ((), shell)
