@@ -39,7 +39,7 @@ def in_child(call):
 
 
 def run(body):
-    script = HEAD.format(folder=str(Path(__file__).parent)) + body
+    script = HEAD.format(folder=str(Path(__file__).parents[1] / "shared")) + body
     done = subprocess.run([sys.executable, "-W", "ignore", "-c", script], capture_output=True, text=True, timeout=100)
     assert done.returncode == 0, done.stderr
 

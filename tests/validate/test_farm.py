@@ -199,7 +199,7 @@ one = finished(scene)
 assert all(numpy.array_equal(numpy.asarray(film[name]), numpy.asarray(one[name])) for name in one.passes)
 """
     done = subprocess.run(
-        [python, "-c", script, farm.address, environments.ROOT / "tests" / "python"],
+        [python, "-c", script, farm.address, environments.ROOT / "tests" / "shared"],
         env=environment,
         capture_output=True,
         text=True,
