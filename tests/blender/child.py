@@ -69,7 +69,7 @@ def main() -> int:
     paths = sys.path.copy()
     for line in sys.stdin:
         file, function, arguments = json.loads(line)
-        sys.path[:] = [str(Path(file).parent), str(TESTS / "validate"), *paths]
+        sys.path[:] = [str(Path(file).parent), str(TESTS / "validate"), str(TESTS / "shared"), *paths]
         if importlib.util.find_spec("gonio") is None:
             ended = "skipped", f"the gonio wheel is not installed in {sys.prefix}"
         else:

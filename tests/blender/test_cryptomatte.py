@@ -58,14 +58,6 @@ def mattes(path, are_ids=True):
     return found
 
 
-def add_readers():
-    """Lets the tests of Blender use what those of Python share."""
-    import sys
-    from pathlib import Path
-
-    sys.path.append(str(Path(__file__).parents[1] / "shared"))
-
-
 def scene_of_things(samples=64):
     """A curve, a text, and two instances of a collection of a cube and a ball, seen from above before nothing."""
     import bpy
@@ -105,7 +97,6 @@ SCENES = {"sheets": scene_of_sheets, "things": scene_of_things}
 def test_mattes_are_those_of_cycles(tmp_path, kind):
     import scenes
 
-    add_readers()
     scene = SCENES[kind]()
     scene.gonio.pixel_filter_type, scene.gonio.filter_width = "BLACKMAN_HARRIS", 1.5
     scenes.render(tmp_path / "gonio.exr")
@@ -215,7 +206,6 @@ def composited(path):
 def test_blenders_node_pulls_the_matte_of_a_render(tmp_path, kind, name):
     import scenes
 
-    add_readers()
     scene = scene_of_sheets(samples=16)
     scenes.render(tmp_path / "mattes.exr")
     expected = mattes(tmp_path / "mattes.exr")[f"{LAYER}.{kind}"][name]
@@ -231,7 +221,6 @@ def test_blenders_node_pulls_the_matte_of_a_file_of_gonio(tmp_path):
     import numpy
     import scenes
 
-    add_readers()
     from cryptomatte_reader import coverage, identifier
     from matte_sheets import sheets
 
