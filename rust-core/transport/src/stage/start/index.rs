@@ -7,7 +7,7 @@ use crate::graph::CHUNK;
 use crate::kernels;
 use crate::stage::find::sort::for_materials;
 use crate::stage::find::surface::{ChunkRays, ChunkSource};
-use crate::stage::start::start_media::{cross, list_held};
+use crate::stage::start::start_media::cross_all;
 use crate::state::media::StartRoom;
 use crate::state::rays::Rays;
 use crate::tables::Tables;
@@ -79,12 +79,7 @@ fn agreed(squares: [f32; DIRECTIONS.len()]) -> f32 {
 /// What each ray says of where it starts.
 fn along(tables: &Tables, bodies: &[Body], rays: &Rays, count: usize, room: &mut StartRoom) -> Vec<f32> {
     let execution = Execution::Scalar;
-    room.crossings.clear();
-    for body in bodies {
-        room.pending.clear();
-        dispatch!(execution, l => list_held(l, body, rays, count, &mut room.pending));
-        cross(tables, execution, body.instance, rays, room);
-    }
+    cross_all(tables, execution, bodies, rays, count, room);
     let mut crossings = std::mem::take(&mut room.crossings);
     let mut squares = vec![1.0; count];
     for_materials(tables, &mut crossings, |material, chunk| {

@@ -48,12 +48,7 @@ pub(crate) fn start_media(
     media: &mut SpectrumColumns,
     room: &mut StartRoom,
 ) {
-    room.crossings.clear();
-    for body in bodies {
-        room.pending.clear();
-        dispatch!(execution, l => list_held(l, body, rays, count, &mut room.pending));
-        cross(tables, execution, body.instance, rays, room);
-    }
+    cross_all(tables, execution, bodies, rays, count, room);
     if room.crossings.is_empty() {
         return;
     }
@@ -68,7 +63,7 @@ pub(crate) fn start_media(
 
 /// Lists the rays that start within a body's bounds.
 #[inline(always)]
-pub(crate) fn list_held<L: Lanes>(l: L, body: &Body, rays: &Rays, count: usize, held: &mut Vec<u32>) {
+fn list_held<L: Lanes>(l: L, body: &Body, rays: &Rays, count: usize, held: &mut Vec<u32>) {
     let [min, max] = body.bounds;
     for at in (0..count).step_by(L::COUNT) {
         let mut inside = l.first(count - at);
@@ -81,8 +76,18 @@ pub(crate) fn list_held<L: Lanes>(l: L, body: &Body, rays: &Rays, count: usize, 
     }
 }
 
+/// Notes every surface of bodies that the first `count` rays cross which start within their bounds.
+pub(super) fn cross_all(tables: &Tables, execution: Execution, bodies: &[Body], rays: &Rays, count: usize, room: &mut StartRoom) {
+    room.crossings.clear();
+    for body in bodies {
+        room.pending.clear();
+        dispatch!(execution, l => list_held(l, body, rays, count, &mut room.pending));
+        cross(tables, execution, body.instance, rays, room);
+    }
+}
+
 /// Notes every surface of an instance that the pending rays cross.
-pub(crate) fn cross(tables: &Tables, execution: Execution, instance: u32, rays: &Rays, room: &mut StartRoom) {
+fn cross(tables: &Tables, execution: Execution, instance: u32, rays: &Rays, room: &mut StartRoom) {
     let StartRoom { pending, from, rays: way, instances, hits, crossings, .. } = room;
     from.clear();
     from.resize(pending.len(), 0.0);
