@@ -4,6 +4,7 @@ use super::numbers::Random;
 use gonio::accel::{Hits, NONE, RayBatch};
 use gonio::camera::CameraTable;
 use gonio::geometry::{SurfacePoint, shadow_ray_to};
+use gonio::light::LightSampleContext;
 use gonio::transport::{Tables, kernels, ray_mask};
 use gonio_simd::{Execution, F, M, One, U, Vec3};
 
@@ -79,7 +80,8 @@ impl Rays {
         let mut rays = Self::default();
         for (point, normal) in self.surfaces(tables) {
             let [choice, u, v] = [random.unit(), random.unit(), random.unit()].map(F);
-            let sample = kernels::sample_li(One, tables, None, U(0), &point.position, &normal, &[choice, u, v]);
+            let from = LightSampleContext { position: point.position, normal, receiver: U(0) };
+            let sample = kernels::sample_li(One, tables, None, &from, &[choice, u, v]);
             if sample.pdf.0 > 0.0 && normal.dot(sample.wi).0 > 0.0 {
                 let segment = shadow_ray_to(point.position, point.geometric_normal, point.error, sample.wi, sample.distance);
                 rays.push(segment.origin, segment.direction, segment.t_max.0, ray_mask::SHADOW);

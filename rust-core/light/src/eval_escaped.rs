@@ -1,5 +1,6 @@
 //! Light of the environment that rays meet on leaving the scene, weighed by MIS (multiple importance sampling).
 
+use super::context::LightSampleContext;
 use super::distant;
 use super::light_kind::LightKind;
 use super::mis::hit_weight;
@@ -8,34 +9,42 @@ use super::table::{InfiniteLight, LightTable};
 use super::tree::LightCache;
 use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
 
+/// A ray that left the scene.
+#[derive(Clone, Copy, Debug)]
+pub struct EscapedRay<L: Lanes> {
+    /// Unit direction.
+    pub direction: Vec3<L>,
+    /// Density per solid angle with which scattering found it.
+    pub pdf: F<L>,
+    /// Whether it is a camera ray, which sees visible lights alone.
+    pub first: M<L>,
+    /// Whether a delta lobe sent it.
+    pub delta: M<L>,
+    /// What scattered it: 0 diffuse, 1 glossy, 2 transmitted.
+    pub kind: U<L>,
+}
+
 impl LightTable {
-    /// Light that a ray from `from` (normal `n` there, zero where there is no surface) along unit `wi` meets on leaving the scene: the sum of the infinite
-    /// lights' radiances, each times its power-heuristic weight against `bsdf_pdf`. The weight is 1 where the ray is a camera ray (`first`,
-    /// which sees visible lights alone) or was sent by a delta lobe (`delta`). Of `only` one of them, where that is asked for; of those alone that the
-    /// class of `receiver`, which sent the ray, sees, and that rays of its `kind` (0 diffuse, 1 glossy, 2 transmitted) see.
+    /// Light that a ray from a point meets on leaving the scene: the sum of the infinite lights' radiances, each times its power-heuristic weight against
+    /// the ray's density. The weight is 1 where the ray is a camera ray or was sent by a delta lobe. Of `only` one of them, where that is asked for; of
+    /// those alone that the point, which sent the ray, and rays of its kind see.
     #[inline(always)]
-    #[expect(clippy::too_many_arguments, reason = "a ray and how it came to be")]
     pub fn eval_escaped<L: Lanes>(
         &self,
         l: L,
         light_cache: Option<&LightCache>,
-        receiver: U<L>,
-        from: Vec3<L>,
-        n: Vec3<L>,
-        wi: Vec3<L>,
-        bsdf_pdf: F<L>,
-        first: M<L>,
-        delta: M<L>,
+        from: &LightSampleContext<L>,
+        ray: &EscapedRay<L>,
         only: Option<u32>,
-        kind: U<L>,
     ) -> Spectrum<L> {
+        let EscapedRay { direction: wi, pdf: bsdf_pdf, first, delta, kind } = *ray;
         let mut sum = Spectrum::zero(l);
         for infinite in self.infinite.iter().filter(|infinite| only.is_none_or(|only| infinite.light == only)) {
-            let (radiance, pdf) = self.infinite_radiance(l, infinite, [from, n], wi);
+            let (radiance, pdf) = self.infinite_radiance(l, infinite, [from.position, from.normal], wi);
             let weighed = (!(first | delta)) & pdf.gt(0.0);
             let mut weight = l.f(1.0);
             if weighed.any() {
-                let pdf = pdf * self.light_pmf(l, light_cache, receiver, from, n, l.u(infinite.light));
+                let pdf = pdf * self.light_pmf(l, light_cache, from, l.u(infinite.light));
                 let pdf = if infinite.alone { l.f(f32::MAX) } else { pdf };
                 weight = hit_weight(bsdf_pdf, pdf, weighed);
             }
@@ -45,7 +54,7 @@ impl LightTable {
                 }
             }
             let seen = (first & l.m(infinite.visible)) | l.m(infinite.scattered).and_not(first);
-            sum += (radiance * weight).keep_if(seen & self.sees(l, receiver, l.u(infinite.light)));
+            sum += (radiance * weight).keep_if(seen & self.sees(l, from.receiver, l.u(infinite.light)));
         }
         sum
     }

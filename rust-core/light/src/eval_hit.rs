@@ -1,5 +1,6 @@
 //! Light of a finite emitter that a ray hit, and the pdf with which NEE samples it, for MIS (multiple importance sampling).
 
+use super::context::LightSampleContext;
 use super::cylinder::Cylinder;
 use super::disk::Disk;
 use super::emitter::Emitter;
@@ -14,26 +15,23 @@ use super::triangle::Triangle;
 use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
 
 impl LightTable {
-    /// Radiance towards `from` of the light's point `hit`, which a ray along unit `wi` met. With it the pdf per solid angle with which
-    /// [`Self::sample_li`] at `from` with normal `n` would have sampled that point, endless for lights that light sampling alone finds. Both zero
-    /// outside `mask`, on sides that do not emit, for lights that rays cannot hit, and for those that the class of `receiver` does not see.
+    /// Radiance towards `context` of the light's point `hit`, which a ray along unit `wi` met. With it the pdf per solid angle with which
+    /// [`Self::sample_li`] would have sampled that point from there, endless for lights that light sampling alone finds. Both zero outside `mask`, on
+    /// sides that do not emit, for lights that rays cannot hit, and for those that the receiver does not see.
     #[inline(always)]
-    #[expect(clippy::too_many_arguments, reason = "a hit seen from a vertex")]
     pub fn eval_hit<L: Lanes>(
         &self,
         l: L,
         light_cache: Option<&LightCache>,
-        receiver: U<L>,
+        context: &LightSampleContext<L>,
         light: U<L>,
-        from: Vec3<L>,
-        n: Vec3<L>,
-        wi: Vec3<L>,
-        hit: Vec3<L>,
+        [wi, hit]: [Vec3<L>; 2],
         mask: M<L>,
     ) -> (Spectrum<L>, F<L>) {
         if self.count == 0 || !mask.any() {
             return (Spectrum::zero(l), l.f(0.0));
         }
+        let from = context.position;
         // Lanes left out follow the first one left in, so that they do not spoil a light common to all others.
         let index = mask.select(light, l.u(light.to_array()[mask.bits().trailing_zeros() as usize]));
         let light = self.reader(l, index);
@@ -82,8 +80,8 @@ impl LightTable {
         );
         let (pdf, uv) = density;
         let valid =
-            mask & pdf.gt(0.0) & pdf.is_finite() & self.faces(&light, from, wi) & light.flag(flag::LIT) & self.sees(l, receiver, index);
-        let probability = self.light_pmf(l, light_cache, receiver, from, n, index);
+            mask & pdf.gt(0.0) & pdf.is_finite() & self.faces(&light, from, wi) & light.flag(flag::LIT) & self.sees(l, context.receiver, index);
+        let probability = self.light_pmf(l, light_cache, context, index);
         let mut pdf = pdf * probability;
         if self.any_alone {
             pdf = light.flag(flag::ALONE).select(l.f(f32::MAX), pdf);

@@ -1,11 +1,12 @@
 //! Fixed light samples, the same at all points, where noise is worse than a step in a half-shadow: every light at the same places of it, or, where
 //! lights are many, the same strata of light selection.
 
+use super::context::LightSampleContext;
 use super::light_bounds::LightBounds;
 use super::row::{ROW, field, flag};
 use super::sample::LightSample;
 use super::table::{LightSampler, LightTable, MOST_EXHAUSTIVE};
-use gonio_simd::{F, Lanes, M, U, Vec3};
+use gonio_simd::{F, Lanes, M};
 
 /// Strata of light selection where lights are too many to ask each.
 const STRATA: u32 = 64;
@@ -55,25 +56,25 @@ impl LightTable {
         all
     }
 
-    /// Where some of a sample's light may arrive, at points of a class of receivers.
+    /// Where some of a sample's light may arrive, at points.
     #[inline(always)]
-    pub fn reaches<L: Lanes>(&self, l: L, fixed: &FixedLightSample, receiver: U<L>, p: Vec3<L>, n: Vec3<L>) -> M<L> {
+    pub fn reaches<L: Lanes>(&self, l: L, fixed: &FixedLightSample, from: &LightSampleContext<L>) -> M<L> {
         match fixed.light {
             Some(light) => {
-                let importance = LightBounds::splat(l, &self.rows[light as usize * ROW..][..ROW]).importance(l, p, n);
-                importance.gt(0.0) & self.sees(l, receiver, l.u(light))
+                let importance = LightBounds::splat(l, &self.rows[light as usize * ROW..][..ROW]).importance(l, from.position, from.normal);
+                importance.gt(0.0) & self.sees(l, from.receiver, l.u(light))
             }
             None => l.m(true),
         }
     }
 
-    /// A fixed sample seen from point `p` with normal `n`: [`Self::sample_li`] with its numbers.
+    /// A fixed sample seen from a point: [`Self::sample_li`] with its numbers.
     #[inline(always)]
-    pub fn sample_fixed<L: Lanes>(&self, l: L, fixed: &FixedLightSample, receiver: U<L>, p: &Vec3<L>, n: &Vec3<L>) -> LightSample<L> {
+    pub fn sample_fixed<L: Lanes>(&self, l: L, fixed: &FixedLightSample, from: &LightSampleContext<L>) -> LightSample<L> {
         let place: [F<L>; 2] = [l.f(fixed.place[0]), l.f(fixed.place[1])];
         match fixed.light {
-            Some(light) => self.sample_li_of(l, (l.u(light), l.f(1.0)), p, n, &place),
-            None => self.sample_li(l, None, receiver, p, n, l.f(fixed.u_light), &place),
+            Some(light) => self.sample_li_of(l, (l.u(light), l.f(1.0)), from, &place),
+            None => self.sample_li(l, None, from, l.f(fixed.u_light), &place),
         }
     }
 }

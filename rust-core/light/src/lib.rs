@@ -9,6 +9,7 @@
 mod beam;
 mod blackbody;
 mod build;
+mod context;
 mod cylinder;
 mod disk;
 mod distant;
@@ -54,8 +55,10 @@ mod vector;
 mod tests;
 
 pub use blackbody::blackbody_rgb;
+pub use context::LightSampleContext;
 pub use emit::{AIMED, EmissionSampler, EmittedRay};
 pub use far_field::FarField;
+pub use eval_escaped::EscapedRay;
 pub use fixed_samples::FixedLightSample;
 pub use gate::{Filter, Slide};
 pub use goniogram::{AngularType, Goniogram};

@@ -1,6 +1,7 @@
 //! Light selection (the light sampler): one light by its importance at each point, all of them weighed where lights are few, by a light tree where
 //! they are many. The learned light cache, where there is one, comes before the tree. Receivers that do not see all lights select in `linked_sampler`.
 
+use super::context::LightSampleContext;
 use super::light_bounds::LightBounds;
 use super::row::{ROW, Reader};
 use super::table::{LightSampler, LightTable, MOST_EXHAUSTIVE};
@@ -44,14 +45,12 @@ impl LightTable {
         &self,
         l: L,
         light_cache: Option<&LightCache>,
-        receiver: U<L>,
-        p: &Vec3<L>,
-        n: &Vec3<L>,
+        from: &LightSampleContext<L>,
         u: F<L>,
     ) -> (U<L>, F<L>) {
         match &self.linked {
-            None => self.sample_all(l, light_cache, 0, p, n, u),
-            Some(linked) => self.sample_linked(l, linked, light_cache, receiver, p, n, u),
+            None => self.sample_all(l, light_cache, 0, from, u),
+            Some(linked) => self.sample_linked(l, linked, light_cache, from, u),
         }
     }
 
@@ -62,17 +61,16 @@ impl LightTable {
         l: L,
         light_cache: Option<&LightCache>,
         class: u32,
-        p: &Vec3<L>,
-        n: &Vec3<L>,
+        from: &LightSampleContext<L>,
         u: F<L>,
     ) -> (U<L>, F<L>) {
         match &self.sampler {
             // One light wants no registers of the point.
             LightSampler::Exhaustive if self.count <= 1 => (l.u(0), l.f(1.0)),
             // Most scenes have few; room for 64 would be cleared each time.
-            LightSampler::Exhaustive if self.count <= FEW => self.sample_exhaustive::<L, FEW>(l, *p, *n, u),
-            LightSampler::Exhaustive => self.sample_exhaustive::<L, MOST_EXHAUSTIVE>(l, *p, *n, u),
-            LightSampler::Tree(tree) => self.sample_tree(l, (tree, light_cache), class, p, n, u),
+            LightSampler::Exhaustive if self.count <= FEW => self.sample_exhaustive::<L, FEW>(l, from, u),
+            LightSampler::Exhaustive => self.sample_exhaustive::<L, MOST_EXHAUSTIVE>(l, from, u),
+            LightSampler::Tree(tree) => self.sample_tree(l, (tree, light_cache), class, from, u),
         }
     }
 
@@ -83,19 +81,19 @@ impl LightTable {
         l: L,
         (tree, light_cache): (&LightTree, Option<&LightCache>),
         class: u32,
-        p: &Vec3<L>,
-        n: &Vec3<L>,
+        from: &LightSampleContext<L>,
         u: F<L>,
     ) -> (U<L>, F<L>) {
         match light_cache {
-            Some(light_cache) => light_cache.sample_light(l, tree, &self.rows, class, *p, *n, u),
-            None => tree.sample_light(l, &self.rows, *p, *n, u),
+            Some(light_cache) => light_cache.sample_light(l, tree, &self.rows, class, from, u),
+            None => tree.sample_light(l, &self.rows, from.position, from.normal, u),
         }
     }
 
     /// Selects one of at most `MOST` lights by the importances of them all.
     #[inline(always)]
-    fn sample_exhaustive<L: Lanes, const MOST: usize>(&self, l: L, p: Vec3<L>, n: Vec3<L>, u: F<L>) -> (U<L>, F<L>) {
+    fn sample_exhaustive<L: Lanes, const MOST: usize>(&self, l: L, from: &LightSampleContext<L>, u: F<L>) -> (U<L>, F<L>) {
+        let (p, n) = (from.position, from.normal);
         let mut importances = [l.f(0.0); MOST];
         let mut total = l.f(0.0);
         for (row, importance) in self.rows.chunks_exact(ROW).zip(&mut importances) {
@@ -115,10 +113,10 @@ impl LightTable {
 
     /// Probability (mass function) with which [`Self::sample_light`] selects `light` at a point of a class of receivers.
     #[inline(always)]
-    pub fn light_pmf<L: Lanes>(&self, l: L, light_cache: Option<&LightCache>, receiver: U<L>, p: Vec3<L>, n: Vec3<L>, light: U<L>) -> F<L> {
+    pub fn light_pmf<L: Lanes>(&self, l: L, light_cache: Option<&LightCache>, from: &LightSampleContext<L>, light: U<L>) -> F<L> {
         match &self.linked {
-            None => self.pmf_among_all(l, light_cache, 0, p, n, light),
-            Some(linked) => self.pmf_linked(l, linked, light_cache, receiver, &p, &n, light),
+            None => self.pmf_among_all(l, light_cache, 0, from, light),
+            Some(linked) => self.pmf_linked(l, linked, light_cache, from, light),
         }
     }
 
@@ -129,14 +127,13 @@ impl LightTable {
         l: L,
         light_cache: Option<&LightCache>,
         class: u32,
-        p: Vec3<L>,
-        n: Vec3<L>,
+        from: &LightSampleContext<L>,
         light: U<L>,
     ) -> F<L> {
         match &self.sampler {
-            LightSampler::Tree(tree) => self.pmf_in_tree(l, (tree, light_cache), class, p, n, light),
+            LightSampler::Tree(tree) => self.pmf_in_tree(l, (tree, light_cache), class, from, light),
             LightSampler::Exhaustive if self.count <= 1 => l.f(1.0),
-            LightSampler::Exhaustive => self.importance_of(l, p, n, light).share_of(self.total_importance(l, p, n)),
+            LightSampler::Exhaustive => self.importance_of(l, from, light).share_of(self.total_importance(l, from.position, from.normal)),
         }
     }
 
@@ -147,19 +144,18 @@ impl LightTable {
         l: L,
         (tree, light_cache): (&LightTree, Option<&LightCache>),
         class: u32,
-        p: Vec3<L>,
-        n: Vec3<L>,
+        from: &LightSampleContext<L>,
         light: U<L>,
     ) -> F<L> {
         match light_cache {
-            Some(light_cache) => light_cache.probability(l, tree, &self.rows, class, p, n, light),
-            None => tree.probability(l, &self.rows, p, n, light),
+            Some(light_cache) => light_cache.probability(l, tree, &self.rows, class, from, light),
+            None => tree.probability(l, &self.rows, from.position, from.normal, light),
         }
     }
 
     /// The importance of a light of each lane.
     #[inline(always)]
-    pub(super) fn importance_of<L: Lanes>(&self, l: L, p: Vec3<L>, n: Vec3<L>, light: U<L>) -> F<L> {
-        LightBounds::gather(&Reader::new(l, &self.rows, light)).importance(l, p, n)
+    pub(super) fn importance_of<L: Lanes>(&self, l: L, from: &LightSampleContext<L>, light: U<L>) -> F<L> {
+        LightBounds::gather(&Reader::new(l, &self.rows, light)).importance(l, from.position, from.normal)
     }
 }

@@ -1,5 +1,6 @@
 //! Next event estimation (NEE): sampling a light and a direction towards it.
 
+use super::context::LightSampleContext;
 use super::emitter::Aim;
 use super::facing_disk;
 use super::light_kind::LightKind;
@@ -28,36 +29,32 @@ pub struct LightSample<L: Lanes> {
 }
 
 impl LightTable {
-    /// Samples a light and a direction to it from point `p` with normal `n` (unit; zero where there is no surface, as in a volume), for `u_light`
-    /// and `u` in `[0, 1)`. The point is of a class of receivers, 0 if it sees all lights. Most lights are those that the `light_cache` has learned
-    /// to arrive there, where there is one.
+    /// Samples a light and a direction to it from a point, for `u_light` and `u` in `[0, 1)`. Most lights are those that the `light_cache` has learned to
+    /// arrive there, where there is one.
     #[inline(always)]
-    #[expect(clippy::too_many_arguments, reason = "a point of a class, and its numbers")]
     pub fn sample_li<L: Lanes>(
         &self,
         l: L,
         light_cache: Option<&LightCache>,
-        receiver: U<L>,
-        p: &Vec3<L>,
-        n: &Vec3<L>,
+        from: &LightSampleContext<L>,
         u_light: F<L>,
         u: &[F<L>; 2],
     ) -> LightSample<L> {
         if self.count == 0 {
             return LightSample::nothing(l);
         }
-        let chosen = self.sample_light(l, light_cache, receiver, p, n, u_light);
-        self.sample_li_of(l, chosen, p, n, u)
+        let chosen = self.sample_light(l, light_cache, from, u_light);
+        self.sample_li_of(l, chosen, from, u)
     }
 
     /// Samples a direction to a light that has been selected with some probability.
     #[inline(always)]
-    pub fn sample_li_of<L: Lanes>(&self, l: L, chosen: (U<L>, F<L>), p: &Vec3<L>, n: &Vec3<L>, u: &[F<L>; 2]) -> LightSample<L> {
+    pub fn sample_li_of<L: Lanes>(&self, l: L, chosen: (U<L>, F<L>), from: &LightSampleContext<L>, u: &[F<L>; 2]) -> LightSample<L> {
         let light = self.reader(l, chosen.0);
         // What all lanes share stays so all the way down: no gathers, no kind of light but one.
         match light.common() {
-            Some(common) => self.sample_row(l, &common, chosen, p, n, u),
-            None => self.sample_row(l, &light, chosen, p, n, u),
+            Some(common) => self.sample_row(l, &common, chosen, from, u),
+            None => self.sample_row(l, &light, chosen, from, u),
         }
     }
 
@@ -67,14 +64,13 @@ impl LightTable {
         l: L,
         light: &Reader<'_, L>,
         (index, probability): (U<L>, F<L>),
-        p: &Vec3<L>,
-        n: &Vec3<L>,
+        from: &LightSampleContext<L>,
         u: &[F<L>; 2],
     ) -> LightSample<L> {
-        let infinite = light.flag(flag::INFINITE);
+        let p = &from.position;
         let mut aim = Aim { wi: Vec3::splat(l, [0.0, 0.0, 1.0]), distance: l.f(f32::MAX), pdf: l.f(0.0), uv: [l.f(0.0); 2] };
         self.sample_finite(l, light, p, u, &mut aim);
-        self.sample_infinite(l, light, index, [p, n], u, infinite, &mut aim);
+        self.sample_infinite(l, light, index, from, u, &mut aim);
         let sent = self.le(l, light, aim.wi, aim.uv);
         let point = light.is_kind(LightKind::Point);
         let radiance = if point.any() {

@@ -1,12 +1,13 @@
 //! Sampling directions to infinite lights: domes (environments) and distant lights.
 
+use super::context::LightSampleContext;
 use super::emitter::Aim;
 use super::light_kind::LightKind;
 use super::portal::Portals;
-use super::row::Reader;
+use super::row::{Reader, flag};
 use super::table::{InfiniteLight, LightTable};
 use super::{distant, dome};
-use gonio_simd::{F, Lanes, M, U, Vec3};
+use gonio_simd::{F, Lanes, U, Vec3};
 
 impl InfiniteLight {
     /// The normal about which an even dome is sampled: none where light sampling alone has to find what comes from behind the surface too.
@@ -19,21 +20,19 @@ impl InfiniteLight {
 impl LightTable {
     /// Samples a direction to infinite lights.
     #[inline(always)]
-    #[expect(clippy::too_many_arguments, reason = "one stage of sampling, with its whole state")]
     pub(super) fn sample_infinite<L: Lanes>(
         &self,
         l: L,
         light: &Reader<'_, L>,
         index: U<L>,
-        [p, n]: [&Vec3<L>; 2],
+        from: &LightSampleContext<L>,
         u: &[F<L>; 2],
-        infinite: M<L>,
         aim: &mut Aim<L>,
     ) {
-        if !infinite.any() {
+        if !light.flag(flag::INFINITE).any() {
             return;
         }
-        let (p, n, u) = (*p, *n, *u);
+        let (p, n, u) = (from.position, from.normal, *u);
         if self.has(LightKind::Distant) {
             let of_kind = light.is_kind(LightKind::Distant);
             let (wi, pdf) = distant::sample(l, light, u);

@@ -4,13 +4,15 @@
 //! AOVs by slot.
 //!
 //! Read `schedule/path` first: it calls the wavefront stages in order, for a [`Tracer`]. `stage` has a file for each, `state` the columns that wait
-//! between them. `accumulate` adds to the sums. `tables` is what no stage changes. `words` are the bits that all of them read. The design is that of pbrt's `WavefrontPathIntegrator`
-//! (Physically Based Rendering, 4th edition, chapter 15), on SIMD lanes in place of a GPU's threads.
+//! between them, `media` what lies between surfaces. `accumulate` adds to the sums. `tables` is what no stage changes. `words` are the bits that all of them
+//! read. The design is that of pbrt's `WavefrontPathIntegrator` (Physically Based Rendering, 4th edition, chapter 15), on SIMD lanes in place of a GPU's
+//! threads.
 
 mod accumulate;
 pub mod geometry;
 pub mod graph;
 pub mod kernels;
+mod media;
 mod schedule;
 mod stage;
 mod state;
@@ -56,6 +58,7 @@ pub use tables::light_groups::{GroupPasses, LightGroups, UNSEEN};
 pub use tables::links::Links;
 pub use tables::material::{MaterialTable, Mix, Shading, SurfaceMaterial};
 pub use tables::matte_names::{MatteNames, NameRun};
+pub use tables::media::{Medium, MediumTable};
 pub use tables::motion_vectors::{MotionCameras, NeighbourFrames, NeighbourMaps};
 pub use tables::photons::{Bright, OFF_PLANE, Photon, Photons};
 pub use tables::shader_passes::{ShaderOutput, ShaderOutputs, ShaderPasses};

@@ -8,6 +8,7 @@ use crate::{
 };
 use gonio::compile::CompiledScene;
 use gonio::error::Result;
+use gonio::light::LightSampleContext;
 use gonio::scene::{
     Closure, DomeFormat, Goniogram, Light, LightShape, Material, Mesh, Opening, OpeningShape, Origin, Scene, Shaping, Spot, Texture,
     Transform,
@@ -131,7 +132,8 @@ fn sample<L: Lanes>(l: L, job: &mut Sampling) {
     let up = Vec3::splat(l, [0.0, 1.0, 0.0]);
     for at in (0..BATCH).step_by(L::COUNT) {
         let point = Vec3::load(l, [x, y, z], at);
-        let sample = kernels::sample_li(l, &scene.tables, None, l.u(0), &point, &up, &[l.load(u, at), l.load(v, at), l.load(w, at)]);
+        let from = LightSampleContext { position: point, normal: up, receiver: l.u(0) };
+        let sample = kernels::sample_li(l, &scene.tables, None, &from, &[l.load(u, at), l.load(v, at), l.load(w, at)]);
         sample.wi.store([dx, dy, dz], at);
         radiance.store(sample.radiance, at);
         sample.pdf.store(pdf, at);

@@ -10,7 +10,7 @@ use crate::{
     error::{Diagnostic, Error, Result},
     graph::{Program, Wanted, WantedOutput},
     scene::{self, Closure, FibreDirection, Input, Material, Model, NodeId, Origin, Scene},
-    transport::{MaterialTable, Mix, ShaderOutput, ShaderOutputs, Shading, SurfaceMaterial},
+    transport::{MaterialTable, Medium, Mix, ShaderOutput, ShaderOutputs, Shading, SurfaceMaterial},
 };
 pub(super) use displacement::{displaces, program, pruned};
 use gonio_nodes::{Channel, Operand, Value};
@@ -39,8 +39,9 @@ pub(super) fn compile(
         }
         let graph = compile_graph(material, textures, names)?;
         tell_weights(material, &graph, diagnostics);
+        let interior = interior(material).map(|medium| table.media.add(medium));
         for closure in &material.closures {
-            table.surfaces.push(surface(material, closure, measured, &graph, diagnostics));
+            table.surfaces.push(SurfaceMaterial { interior, ..surface(material, closure, measured, &graph, diagnostics) });
         }
         if !material.shader_outputs.is_empty() {
             table.shader_outputs.push(shader_outputs(material, &graph, first as usize));
@@ -175,7 +176,7 @@ fn surface(
         even_emission,
         glow,
         emits_apart: material.closures.len() > 1 && closure.model == Model::Emission && lobes.emission && !lobes.cut_out,
-        interior: interior(material),
+        interior: None,
         anisotropic: lobes.anisotropic,
         holdout: closure.model == Model::Holdout,
         pass_index: material.pass_index,
@@ -213,9 +214,9 @@ fn edge(closure: &Closure) -> Option<usize> {
 }
 
 /// What fills the mesh, if it absorbs anything.
-fn interior(material: &Material) -> Option<[f32; 3]> {
+fn interior(material: &Material) -> Option<Medium> {
     let absorption = material.absorption.map(|x| finite(x).max(0.0));
-    absorption.iter().any(|x| *x > 0.0).then_some(absorption)
+    absorption.iter().any(|x| *x > 0.0).then_some(Medium { absorption })
 }
 
 fn finite(value: f32) -> f32 {

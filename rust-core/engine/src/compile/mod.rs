@@ -183,7 +183,7 @@ fn report(scene: &Scene, materials: &MaterialTable, lights: &LightTable, diagnos
 fn tables(scene: &Scene, bvh: Tlas, looks: &mut Looks, shapes: &mut Shapes, lights: CompiledLights) -> Tables {
     let (geometry, materials) = (mem::take(&mut shapes.geometry.table), mem::take(&mut looks.materials));
     let (first_light_instance, origin) = (shapes.geometry.first_light, shapes.origin);
-    let any_volume = materials.surfaces.iter().any(|surface| surface.interior.is_some());
+    let any_volume = !materials.media.is_empty();
     let any_absorbing = any_volume
         || scene.materials.iter().flat_map(|material| &material.closures).any(|closure| closure.input("transmission_depth").is_some());
     let rows = geometry.instances.iter().take(first_light_instance as usize).map(|row| (row.set, row.number, row.mesh));

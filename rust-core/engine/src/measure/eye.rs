@@ -8,7 +8,7 @@ use crate::{
     accel::RayBatch,
     compile::{CompiledScene, Luminaire},
     error::{Error, Result},
-    light::{LightSample, LightTable},
+    light::{LightSample, LightSampleContext, LightTable},
     scene::Meter,
     transport::ray_mask,
 };
@@ -154,8 +154,9 @@ impl Part {
 
 /// A direction from a place to a light that is alone in its table, for `u` in `[0, 1)`.
 fn drawn(emitter: &LightTable, place: [f32; 3], u: [f32; 2]) -> LightSample<One> {
-    let no_surface = Vec3::splat(One, [0.0; 3]);
-    emitter.sample_li(One, None, One.u(0), &Vec3::splat(One, place), &no_surface, One.f(0.5), &u.map(|x| One.f(x)))
+    // No side of the eye is dark.
+    let eye = LightSampleContext { position: Vec3::splat(One, place), normal: Vec3::splat(One, [0.0; 3]), receiver: One.u(0) };
+    emitter.sample_li(One, None, &eye, One.f(0.5), &u.map(|x| One.f(x)))
 }
 
 /// Drops the parts that something opaque hides.

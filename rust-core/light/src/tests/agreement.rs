@@ -1,7 +1,7 @@
 //! `sample`, `eval_hit` and the levels agree.
 
 use super::harness::NO_IMAGES;
-use super::harness::{draw, light, numbers, turned};
+use super::harness::{draw, light, numbers, seeing_all, turned};
 use super::shape::{facing_axes, seen};
 use crate::vector::{Vector, dot, length, narrow, widen};
 use crate::{LightKind, LightRecord, LightTable, OpeningPart, ProjectedArea, Shaping, Spot};
@@ -89,11 +89,12 @@ fn eval_hit_gives_what_sample_gave() {
 
 #[inline(always)]
 fn densities<L: Lanes>(l: L, table: &LightTable, p: [f32; 3], hits: &[Column; 3], pdf: &mut Column) {
-    let (p, n) = (Vec3::splat(l, p), Vec3::splat(l, [0.0, 0.0, 1.0]));
+    let p = Vec3::splat(l, p);
+    let from = seeing_all(l, [p, Vec3::splat(l, [0.0, 0.0, 1.0])]);
     for at in (0..hits[0].len()).step_by(L::COUNT) {
         let hit = Vec3::load(l, [&hits[0], &hits[1], &hits[2]], at);
         let wi = (hit - p).normalize();
-        table.eval_hit(l, None, l.u(0), l.u(0), p, n, wi, hit, l.m(true)).1.store(pdf, at);
+        table.eval_hit(l, None, &from, l.u(0), [wi, hit], l.m(true)).1.store(pdf, at);
     }
 }
 

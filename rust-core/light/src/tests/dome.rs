@@ -1,7 +1,7 @@
 //! Domes, constant and textured.
 
-use super::harness::{draw, estimate, numbers, turned, uniform};
-use crate::{LightKind, LightRecord, LightTable, LightTexture};
+use super::harness::{draw, estimate, numbers, seeing_all, turned, uniform};
+use crate::{EscapedRay, LightKind, LightRecord, LightTable, LightTexture};
 use gonio_simd::{Column, Execution, F, Lanes, M, One, Vec3, dispatch};
 use std::f64::consts::PI;
 
@@ -32,8 +32,8 @@ fn constant_dome_gives_pi() {
 #[inline(always)]
 fn look<L: Lanes>(l: L, table: &LightTable, wi: [f32; 3]) -> [f32; 3] {
     let yes = l.m(true);
-    let zero = Vec3::splat(l, [0.0; 3]);
-    let seen = table.eval_escaped(l, None, l.u(0), zero, zero, Vec3::splat(l, wi), l.f(1.0), yes, yes, None, l.u(0)).to_rgb();
+    let ray = EscapedRay { direction: Vec3::splat(l, wi), pdf: l.f(1.0), first: yes, delta: yes, kind: l.u(0) };
+    let seen = table.eval_escaped(l, None, &seeing_all(l, [Vec3::splat(l, [0.0; 3]); 2]), &ray, None).to_rgb();
     [seen.r.to_array()[0], seen.g.to_array()[0], seen.b.to_array()[0]]
 }
 
@@ -113,20 +113,19 @@ fn bright_spots_are_found() {
 /// A cosine-distributed direction about +Z with MIS against the table: both halves of the estimate together.
 #[inline(always)]
 fn both_halves<L: Lanes>(l: L, table: &LightTable, u: &[Column; 3], out: &mut Column) {
-    let (p, n) = (Vec3::splat(l, [0.0; 3]), Vec3::splat(l, [0.0, 0.0, 1.0]));
+    let from = seeing_all(l, [Vec3::splat(l, [0.0; 3]), Vec3::splat(l, [0.0, 0.0, 1.0])]);
     let never: M<L> = l.m(false);
     for at in (0..out.len()).step_by(L::COUNT) {
         let numbers: [F<L>; 3] = [l.load(&u[0], at), l.load(&u[1], at), l.load(&u[2], at)];
-        let s = table.sample_li(l, None, l.u(0), &p, &n, numbers[0], &[numbers[1], numbers[2]]);
+        let s = table.sample_li(l, None, &from, numbers[0], &[numbers[1], numbers[2]]);
         let bsdf = s.wi.z.max(0.0) * std::f32::consts::FRAC_1_PI;
         let weight = s.delta.select(l.f(1.0), s.pdf * s.pdf / (s.pdf * s.pdf + bsdf * bsdf));
         let by_light = (s.radiance.to_rgb().g * s.wi.z.max(0.0) * weight / s.pdf).keep_if(s.pdf.gt(0.0));
         let (sine, cosine) = numbers[2].sin_cos_turns();
         let r = numbers[1].sqrt();
         let wi = Vec3::new(r * cosine, r * sine, (1.0 - numbers[1]).safe_sqrt());
-        let by_bsdf =
-            table.eval_escaped(l, None, l.u(0), p, n, wi, wi.z * std::f32::consts::FRAC_1_PI, never, never, None, l.u(0)).to_rgb().g
-                * std::f32::consts::PI;
+        let ray = EscapedRay { direction: wi, pdf: wi.z * std::f32::consts::FRAC_1_PI, first: never, delta: never, kind: l.u(0) };
+        let by_bsdf = table.eval_escaped(l, None, &from, &ray, None).to_rgb().g * std::f32::consts::PI;
         (by_light + by_bsdf).store(out, at);
     }
 }
@@ -165,7 +164,7 @@ fn skies_are_selected_by_what_light_samples_bring() {
         record.radiance = [if textures.is_empty() { 1.0 } else { 1.0 / mean }; 3];
         let table = LightTable::build(&[record, LightRecord { radiance: [4e4; 3], ..sun }], textures, &[]);
         let (towards_sun, origin) = (Vec3::splat(One, [0.0, 0.0, 1.0]), Vec3::splat(One, [0.0; 3]));
-        table.light_pmf(One, None, One.u(0), origin, towards_sun, One.u(0)).to_array()[0]
+        table.light_pmf(One, None, &seeing_all(One, [origin, towards_sun]), One.u(0)).to_array()[0]
     };
     let [bare, even, peak] = [selected(&[]), selected(&[even]), selected(&[peak])];
     assert!(bare > 0.0 && bare < 0.2 && (bare - even).abs() < 0.02, "even skies: {bare} and {even}");

@@ -1,6 +1,6 @@
 //! Batches of samples through the kernels at any level.
 
-use crate::{LightCache, LightKind, LightRecord, LightSample, LightTable};
+use crate::{LightCache, LightKind, LightRecord, LightSample, LightSampleContext, LightTable};
 use gonio_simd::{Column, Execution, F, Lanes, M, Spectrum, Vec3, dispatch, padded};
 
 /// Samples drawn, column by column.
@@ -44,19 +44,24 @@ pub(super) fn numbers(seed: u64, count: usize) -> [Column; 3] {
     columns
 }
 
+/// A point that sees all lights.
+#[inline(always)]
+pub(super) fn seeing_all<L: Lanes>(l: L, [position, normal]: [Vec3<L>; 2]) -> LightSampleContext<L> {
+    LightSampleContext { position, normal, receiver: l.u(0) }
+}
+
 /// [`LightTable::sample_li`] as a function of its own: all kinds of lights in one function with evaluation compile for minutes.
 #[inline(never)]
 fn sample_li<L: Lanes>(
     l: L,
     table: &LightTable,
     light_cache: Option<&LightCache>,
-    p: &Vec3<L>,
-    n: &Vec3<L>,
+    from: &LightSampleContext<L>,
     u: &[F<L>; 3],
 ) -> LightSample<L> {
     l.vectorize(
         #[inline(always)]
-        || table.sample_li(l, light_cache, l.u(0), p, n, u[0], &[u[1], u[2]]),
+        || table.sample_li(l, light_cache, from, u[0], &[u[1], u[2]]),
     )
 }
 
@@ -67,14 +72,14 @@ fn eval_hit<L: Lanes>(
     table: &LightTable,
     light_cache: Option<&LightCache>,
     sample: &LightSample<L>,
-    vertex: &[Vec3<L>; 2],
+    from: &LightSampleContext<L>,
     placed: M<L>,
 ) -> (Spectrum<L>, F<L>) {
     l.vectorize(
         #[inline(always)]
         || {
-            let hit = sample.wi.mul_add(sample.distance, vertex[0]);
-            table.eval_hit(l, light_cache, l.u(0), sample.light, vertex[0], vertex[1], sample.wi, hit, placed)
+            let hit = sample.wi.mul_add(sample.distance, from.position);
+            table.eval_hit(l, light_cache, from, sample.light, [sample.wi, hit], placed)
         },
     )
 }
@@ -89,10 +94,10 @@ fn kernel<L: Lanes>(
     u: &[Column; 3],
     drawn: &mut Drawn,
 ) {
-    let (p, n) = (Vec3::splat(l, p), Vec3::splat(l, n));
+    let from = seeing_all(l, [Vec3::splat(l, p), Vec3::splat(l, n)]);
     for at in (0..u[0].len()).step_by(L::COUNT) {
         let numbers: [F<L>; 3] = [l.load(&u[0], at), l.load(&u[1], at), l.load(&u[2], at)];
-        let s = sample_li(l, table, light_cache, &p, &n, &numbers);
+        let s = sample_li(l, table, light_cache, &from, &numbers);
         let [x, y, z] = &mut drawn.wi;
         s.wi.store([x, y, z], at);
         s.distance.store(&mut drawn.distance, at);
@@ -101,7 +106,7 @@ fn kernel<L: Lanes>(
         s.pdf.store(&mut drawn.pdf, at);
         s.light.store(&mut drawn.light, at);
         let placed = s.distance.lt(f32::MAX) & s.pdf.gt(0.0) & !s.delta;
-        let (radiance, pdf) = eval_hit(l, table, light_cache, &s, &[p, n], placed);
+        let (radiance, pdf) = eval_hit(l, table, light_cache, &s, &from, placed);
         let [r, g, b] = &mut drawn.eval_radiance;
         radiance.to_rgb().store([r, g, b], at);
         pdf.store(&mut drawn.eval_pdf, at);

@@ -1,7 +1,7 @@
 //! Light selection.
 
 use super::harness::NO_IMAGES;
-use super::harness::{draw, light, numbers, turned, uniform};
+use super::harness::{draw, light, numbers, seeing_all, turned, uniform};
 use crate::{LightKind, LightRecord, LightTable, Shaping, Spot};
 use gonio_simd::{Column, Execution, Lanes, One, Vec3, dispatch};
 
@@ -42,10 +42,10 @@ fn crowd(count: usize) -> Vec<LightRecord> {
 fn probabilities<L: Lanes>(l: L, table: &LightTable, points: &[Column; 3], sums: &mut Column) {
     for at in (0..sums.len()).step_by(L::COUNT) {
         let p = Vec3::load(l, [&points[0], &points[1], &points[2]], at);
-        let n = Vec3::splat(l, [0.0, 0.0, 1.0]);
+        let from = seeing_all(l, [p, Vec3::splat(l, [0.0, 0.0, 1.0])]);
         let mut sum = l.f(0.0);
         for light in 0..table.len() as u32 {
-            sum += table.light_pmf(l, None, l.u(0), p, n, l.u(light));
+            sum += table.light_pmf(l, None, &from, l.u(light));
         }
         sum.store(sums, at);
     }
@@ -81,7 +81,8 @@ fn lights_are_drawn_as_often_as_their_probability_says() {
         let probability = |light: usize| {
             #[inline(always)]
             fn one<L: Lanes>(l: L, table: &LightTable, light: u32) -> f32 {
-                table.light_pmf(l, None, l.u(0), Vec3::splat(l, [0.5, 0.5, 0.0]), Vec3::splat(l, [0.0, 0.0, 1.0]), l.u(light)).to_array()[0]
+                let from = seeing_all(l, [[0.5, 0.5, 0.0], [0.0, 0.0, 1.0]].map(|v| Vec3::splat(l, v)));
+                table.light_pmf(l, None, &from, l.u(light)).to_array()[0]
             }
             f64::from(one(One, &table, light as u32))
         };

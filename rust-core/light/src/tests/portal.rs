@@ -1,8 +1,8 @@
 //! Domes looked for through portals.
 
 use super::harness::NO_IMAGES;
-use super::harness::{draw, light, numbers, turned, uniform};
-use crate::{LightKind, LightRecord, LightTable, LightTexture, power_heuristic};
+use super::harness::{draw, light, numbers, seeing_all, turned, uniform};
+use crate::{EscapedRay, LightKind, LightRecord, LightTable, LightTexture, power_heuristic};
 use gonio_simd::{Column, Execution, F, Lanes, M, One, Vec3, dispatch};
 use std::f64::consts::PI;
 
@@ -105,7 +105,8 @@ fn directions_are_distributed_by_their_density() {
 /// Both halves of the estimate through openings: what does not pass a window is dark.
 #[inline(always)]
 fn through_windows<L: Lanes>(l: L, table: &LightTable, windows: &LightTable, u: &[Column; 3], out: &mut Column) {
-    let (p, n) = (Vec3::splat(l, [0.0; 3]), Vec3::splat(l, NORMAL));
+    let p = Vec3::splat(l, [0.0; 3]);
+    let from = seeing_all(l, [p, Vec3::splat(l, NORMAL)]);
     let never: M<L> = l.m(false);
     let open = |wi: Vec3<L>| {
         let portals = windows.portals_at(l, p).expect("there are portals");
@@ -113,16 +114,15 @@ fn through_windows<L: Lanes>(l: L, table: &LightTable, windows: &LightTable, u: 
     };
     for at in (0..out.len()).step_by(L::COUNT) {
         let numbers: [F<L>; 3] = [l.load(&u[0], at), l.load(&u[1], at), l.load(&u[2], at)];
-        let s = table.sample_li(l, None, l.u(0), &p, &n, numbers[0], &[numbers[1], numbers[2]]);
+        let s = table.sample_li(l, None, &from, numbers[0], &[numbers[1], numbers[2]]);
         let cosine = s.wi.z.max(0.0);
         let weight = power_heuristic(s.pdf, cosine * std::f32::consts::FRAC_1_PI);
         let by_light = (s.radiance.to_rgb().g * cosine * weight / s.pdf).keep_if(s.pdf.gt(0.0) & open(s.wi));
         let (sine, cosine) = numbers[2].sin_cos_turns();
         let r = numbers[1].sqrt();
         let wi = Vec3::new(r * cosine, r * sine, (1.0 - numbers[1]).safe_sqrt());
-        let by_bsdf =
-            table.eval_escaped(l, None, l.u(0), p, n, wi, wi.z * std::f32::consts::FRAC_1_PI, never, never, None, l.u(0)).to_rgb().g
-                * std::f32::consts::PI;
+        let ray = EscapedRay { direction: wi, pdf: wi.z * std::f32::consts::FRAC_1_PI, first: never, delta: never, kind: l.u(0) };
+        let by_bsdf = table.eval_escaped(l, None, &from, &ray, None).to_rgb().g * std::f32::consts::PI;
         (by_light + by_bsdf.keep_if(open(wi))).store(out, at);
     }
 }

@@ -5,6 +5,7 @@
 //! among all lights by the light tree, less those in the cache. So each light is selected in one way, and its probability is simple.
 //! Classes of receivers that see other lights have cells of their own.
 
+use crate::context::LightSampleContext;
 use super::{Below, LightTree, NONE, Node, below_one, draw};
 use gonio_simd::{F, Lanes, M, One, U, Vec3};
 
@@ -81,17 +82,16 @@ impl LightCache {
     /// Selects a light for each point of a class of receivers, whose tree it is, and gives its probability: 0 where no light can arrive, and where
     /// the selection is given up.
     #[inline(always)]
-    #[expect(clippy::too_many_arguments, reason = "lights, and a point of a class")]
     pub(crate) fn sample_light<L: Lanes>(
         &self,
         l: L,
         tree: &LightTree,
         rows: &[f32],
         class: u32,
-        p: Vec3<L>,
-        n: Vec3<L>,
+        from: &LightSampleContext<L>,
         u: F<L>,
     ) -> (U<L>, F<L>) {
+        let (p, n) = (from.position, from.normal);
         let cell = self.cell(l, class, p);
         let in_cache = u.lt(cell.share);
         let rest = l.f(1.0) - cell.share;
@@ -120,17 +120,16 @@ impl LightCache {
 
     /// Probability that [`Self::sample_light`] selects `light` at a point.
     #[inline(always)]
-    #[expect(clippy::too_many_arguments, reason = "lights, and a point of a class")]
     pub(crate) fn probability<L: Lanes>(
         &self,
         l: L,
         tree: &LightTree,
         rows: &[f32],
         class: u32,
-        p: Vec3<L>,
-        n: Vec3<L>,
+        from: &LightSampleContext<L>,
         light: U<L>,
     ) -> F<L> {
+        let (p, n) = (from.position, from.normal);
         let cell = self.cell(l, class, p);
         let leaf = l.gather_integers(&tree.leaves, light);
         let cached = cell.holds(leaf);

@@ -3,7 +3,8 @@
 
 use crate::schedule::steps::{self, MOST_DEPTH};
 use crate::schedule::tracer::{Start, Tracer};
-use crate::stage::find::intersect::{escape, find_surfaces};
+use crate::stage::find::found_light::escape;
+use crate::stage::find::intersect::find_surfaces;
 use crate::stage::find::segments::Segments;
 use crate::stage::find::sort::{list_materials, sort_by_material};
 use crate::stage::light::glow::shine_starts;
@@ -119,8 +120,8 @@ impl LightTracer<'_> {
         }
         ws.paths.set_times(&ws.times);
         let room = ws.queues.light_paths.media.get_or_insert_default();
-        let Paths { count, rays, medium, .. } = &mut ws.paths;
-        start_media(self.tables, self.transport.execution, bodies, rays, *count, medium, room);
+        let Paths { count, rays, media, .. } = &mut ws.paths;
+        start_media(self.tables, self.transport.execution, bodies, rays, *count, media, room);
     }
 
     fn follow_bounce(

@@ -3,7 +3,7 @@
 use crate::accumulate::shader_passes::shader_program;
 use crate::kernels;
 use crate::schedule::tracer::{Start, Tracer};
-use crate::stage::find::intersect;
+use crate::stage::find::{found_light, intersect};
 use crate::stage::find::sort::list_materials;
 use crate::stage::find::surface::{ChunkRays, ChunkSource};
 use crate::stage::light::measure::MeasureContext;
@@ -37,7 +37,8 @@ pub(crate) fn intersect(tracer: &Tracer<'_>, depth: u32, ws: &mut Workspace) {
     } else {
         statistics.rays += paths.count as u64;
         deposits.sums.effort.count(paths);
-        intersect::intersect(tables, transport, depth, paths, nearest, deposits);
+        intersect::find(tables, transport, depth, paths, nearest);
+        found_light::add_found(tables, transport, paths, nearest, deposits);
     }
     let escaped = nearest.escaped.len();
     statistics.count_lanes(depth, LaneStage::Escaped, escaped.next_multiple_of(transport.execution.lanes()), escaped);

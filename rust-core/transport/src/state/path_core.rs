@@ -3,6 +3,7 @@
 //! The record is embedded whole wherever a path waits: in [`crate::state::paths::PathLanes`], vertices, and points that are measured. What is added to it needs
 //! a column there, and somebody who decides its value at scattering ([`crate::state::vertex::Vertex`]'s makers).
 
+use crate::media::set::MediaSet;
 use gonio_simd::{F, Lanes, Spectrum, U};
 
 /// One register of what paths carry.
@@ -18,8 +19,8 @@ pub(crate) struct PathCore<L: Lanes> {
     /// Ray cone (pbrt's ray differentials): width here, metres, and growth a metre.
     pub(crate) width: F<L>,
     pub(crate) spread: F<L>,
-    /// Absorption a metre of what the path is in.
-    pub(crate) medium: Spectrum<L>,
+    /// What the path is in.
+    pub(crate) media: MediaSet<L>,
     /// Throughput as it were without guiding, over throughput: roulette goes by that.
     pub(crate) unguided: F<L>,
 }
@@ -35,7 +36,7 @@ impl<L: Lanes> PathCore<L> {
             counts: l.u(0),
             width: l.f(0.0),
             spread: l.f(0.0),
-            medium: Spectrum::zero(l),
+            media: MediaSet::open(l),
             unguided: l.f(1.0),
         }
     }

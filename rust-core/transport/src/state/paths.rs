@@ -2,13 +2,15 @@
 //!
 //! Rays lie in plain columns, as the TLAS traverses them. What stages gather of chosen paths lies in items of four words, one load a lane.
 
+use crate::media::set::MediaColumns;
 use crate::state::passed::PassedLanes;
 use crate::state::path_core::PathCore;
 use crate::state::rays::{RayLanes, Rays};
 use crate::state::times::SlotTimes;
 use crate::words::{flag, ray_mask};
 use gonio_camera::sampler::CAPACITY;
-use gonio_simd::{Column, F, Lanes, M, Spectrum, SpectrumColumns, SpectrumItems, U, Vec3, padded};
+use gonio_light::LightSampleContext;
+use gonio_simd::{Column, F, Lanes, M, Spectrum, SpectrumItems, U, Vec3, padded};
 
 /// Paths with a ray each.
 #[derive(Debug)]
@@ -17,13 +19,13 @@ pub struct Paths {
     pub count: usize,
     /// Their rays; visibility bits are those of [`Self::set_masks`].
     pub rays: Rays,
-    /// Absorption a metre of what the ray goes through.
-    pub(crate) medium: SpectrumColumns,
+    /// What the rays go through.
+    pub(crate) media: MediaColumns,
     /// Items of throughput and pdf, see [`CarriedLanes`].
     pub(crate) carried: SpectrumItems,
     /// Ray cones: items of directions and widths, see [`ConeLanes`].
     cone: Column,
-    /// Previous vertices: items of points with the bits of classes of receivers, and of normals, see [`PreviousLanes`], with [`PathCore::unguided`].
+    /// Previous vertices: items of points with the bits of classes of receivers, and of normals, see [`Paths::previous`], with [`PathCore::unguided`].
     vertex: Column,
     normal: Column,
     /// Items of slots, flags, counts and the bits of spreads, see [`TrackLanes`].
@@ -37,7 +39,7 @@ pub(crate) struct PathLanes<L: Lanes> {
     /// What the ray has passed, if it has gone straight on.
     pub(crate) passed: Option<PassedLanes<L>>,
     /// The vertex that the ray leaves.
-    pub(crate) from: PreviousLanes<L>,
+    pub(crate) from: LightSampleContext<L>,
     /// As in [`CarriedLanes`].
     pub(crate) pdf: F<L>,
     pub(crate) core: PathCore<L>,
@@ -51,7 +53,7 @@ impl<L: Lanes> PathLanes<L> {
         Self {
             ray,
             passed: None,
-            from: PreviousLanes { position: ray.origin, normal: ray.direction, receiver: l.u(0) },
+            from: LightSampleContext { position: ray.origin, normal: ray.direction, receiver: l.u(0) },
             pdf: l.f(1.0),
             core,
         }
@@ -59,7 +61,7 @@ impl<L: Lanes> PathLanes<L> {
 
     /// The same from another vertex, from which they found their directions with a density.
     #[inline(always)]
-    pub(crate) fn leaving(self, from: PreviousLanes<L>, pdf: F<L>) -> Self {
+    pub(crate) fn leaving(self, from: LightSampleContext<L>, pdf: F<L>) -> Self {
         Self { from, pdf, ..self }
     }
 
@@ -86,15 +88,6 @@ pub(crate) struct ConeLanes<L: Lanes> {
     pub(crate) width: F<L>,
 }
 
-/// The previous vertex of paths (pbrt's `LightSampleContext`): NEE sampled lights from there, so MIS asks for its pdf from there.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct PreviousLanes<L: Lanes> {
-    pub(crate) position: Vec3<L>,
-    pub(crate) normal: Vec3<L>,
-    /// Its class as a receiver of light; 0 sees all lights.
-    pub(crate) receiver: U<L>,
-}
-
 /// Where contributions of paths go, and what the paths have met.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TrackLanes<L: Lanes> {
@@ -116,7 +109,7 @@ impl Default for Paths {
         Self {
             count: 0,
             rays: Rays::new(room, 0),
-            medium: SpectrumColumns::new(room),
+            media: MediaColumns::new(room),
             carried: SpectrumItems::new(room),
             cone: Column::new(4 * room),
             vertex: Column::new(4 * room),
@@ -140,7 +133,7 @@ impl Paths {
         let (direction, from, core) = (p.ray.direction, &p.from, &p.core);
         self.rays.append(&p.ray, chosen, n);
         self.rays.passed.append(l, p.passed.as_ref(), chosen, [n, self.rays.t_max.len()]);
-        self.medium.append(core.medium, chosen, n);
+        self.media.append(core.media, chosen, n);
         self.carried.append(core.throughput, p.pdf, chosen, n);
         l.append_quads([direction.x, direction.y, direction.z, core.width], chosen, &mut self.cone, n);
         l.append_quads([from.position.x, from.position.y, from.position.z, F::from_bits(from.receiver)], chosen, &mut self.vertex, n);
@@ -172,12 +165,12 @@ impl Paths {
         ConeLanes { direction: Vec3::new(x, y, z), width }
     }
 
-    /// The previous vertices of some paths.
+    /// The previous vertices of some paths: NEE sampled lights from there, so MIS asks for its pdf from there.
     #[inline(always)]
-    pub(crate) fn previous<L: Lanes>(&self, l: L, path: U<L>) -> PreviousLanes<L> {
+    pub(crate) fn previous<L: Lanes>(&self, l: L, path: U<L>) -> LightSampleContext<L> {
         let [x, y, z, receiver] = l.gather_quads(&self.vertex, path << 2);
         let normal = Vec3::gather(l, &self.normal, path << 2);
-        PreviousLanes { position: Vec3::new(x, y, z), normal, receiver: receiver.to_bits() }
+        LightSampleContext { position: Vec3::new(x, y, z), normal, receiver: receiver.to_bits() }
     }
 
     /// Throughput as it were without guiding, over throughput, of some paths.
@@ -211,7 +204,7 @@ impl Paths {
     /// Moves a path to another place of the columns, over what is there.
     pub(crate) fn copy(&mut self, from: usize, to: usize) {
         self.rays.copy(from, to);
-        self.medium.copy(from, to);
+        self.media.copy(from, to);
         self.carried.copy(from, to);
         let items = [&mut self.cone, &mut self.vertex, &mut self.normal];
         items.into_iter().for_each(|items| items.copy_within(4 * from..4 * from + 4, 4 * to));

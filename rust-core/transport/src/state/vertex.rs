@@ -1,15 +1,19 @@
 //! A register of path vertices on surfaces (pbrt's `SurfaceInteraction`).
 
 use crate::geometry::{ShadowSegment, offset_ray_origin, shadow_ray_from, shadow_ray_to};
+use crate::media::set::MediaSet;
 use crate::state::passed::PassedLanes;
 use crate::state::path_core::PathCore;
-use crate::state::paths::{PathLanes, PreviousLanes};
+use crate::state::paths::PathLanes;
+use crate::state::queue::shadow_rays::Along;
 use crate::state::rays::RayLanes;
+use crate::tables::Tables;
 use crate::tables::guiding::Guided;
+use crate::tables::transport::Transport;
 use crate::words::{counts, flag};
 use gonio_bsdf::Lobes;
-use gonio_light::LightSample;
-use gonio_simd::{F, Frame, Lanes, M, Spectrum, U, Vec3};
+use gonio_light::{LightSample, LightSampleContext};
+use gonio_simd::{F, Frame, Lanes, M, U, Vec3};
 
 /// Roughness widens a path's ray cone by this much, radians: blurred reflections need no fine texture level.
 pub(crate) const CONE_PER_ROUGHNESS: f32 = 0.3;
@@ -56,10 +60,10 @@ impl<L: Lanes> Interaction<L> {
         if lobes.has_fibre() { Vec3::splat(self.error.lanes(), [0.0; 3]) } else { self.frame.z }
     }
 
-    /// What the next vertex's MIS weight needs of this one.
+    /// As lights are sampled from here, and as the next vertex's MIS weight asks for it.
     #[inline(always)]
-    pub(crate) fn as_previous(&self) -> PreviousLanes<L> {
-        PreviousLanes { position: self.position, normal: self.frame.z, receiver: self.receiver }
+    pub(crate) fn light_context(&self) -> LightSampleContext<L> {
+        LightSampleContext { position: self.position, normal: self.frame.z, receiver: self.receiver }
     }
 }
 
@@ -93,8 +97,8 @@ pub(crate) struct Vertex<L: Lanes> {
     pub(crate) core: PathCore<L>,
     pub(crate) instance: U<L>,
     pub(crate) bounces: U<L>,
-    /// Absorption a metre of what is behind the surface; [`PathCore::medium`] is before it.
-    pub(crate) behind: Spectrum<L>,
+    /// What is behind the surface; [`PathCore::media`] is before it.
+    pub(crate) behind: MediaSet<L>,
     /// Where all lobes are specular: mirrors or smooth glass.
     pub(crate) all_delta: M<L>,
     /// Pdf of the direction that found the vertex, per solid angle; of no meaning for camera rays.
@@ -129,7 +133,7 @@ impl<L: Lanes> Vertex<L> {
             core,
             instance,
             bounces: core.flags >> flag::BOUNCE_SHIFT,
-            behind: Spectrum::zero(l),
+            behind: MediaSet::open(l),
             all_delta: l.m(false),
             pdf: l.f(0.0),
             direct_brought: l.m(false),
@@ -141,22 +145,34 @@ impl<L: Lanes> Vertex<L> {
     /// What rays that leave are in: `across` where they go behind the surface, `straight` where nothing bends them. Volumes lie behind what rays pass
     /// straight, solids behind what bends them alone.
     #[inline(always)]
-    pub(crate) fn media_towards(&self, across: M<L>, straight: M<L>, any_volume: bool) -> Spectrum<L> {
-        (if any_volume { across } else { across.and_not(straight) }).select(self.behind, self.core.medium)
+    pub(crate) fn media_towards(&self, across: M<L>, straight: M<L>, any_volume: bool) -> MediaSet<L> {
+        self.behind.select(if any_volume { across } else { across.and_not(straight) }, self.core.media)
+    }
+
+    /// What shadow rays take along that leave in a direction.
+    #[inline(always)]
+    pub(crate) fn along(&self, tables: &Tables, transport: &Transport, direction: Vec3<L>, ceiling: Option<F<L>>) -> Along<L> {
+        let l = self.bounces.lanes();
+        let media = if tables.any_absorbing {
+            self.media_towards(self.at.geometric.dot(direction).lt(0.0), l.m(false), tables.any_volume)
+        } else {
+            self.core.media
+        };
+        Along::new(tables, transport, media, self.core.counts, ceiling)
     }
 
     /// The path that leaves here with a ray, whose direction was found with a density, and with what it carries from here.
     #[inline(always)]
     pub(crate) fn go_on(&self, ray: RayLanes<L>, pdf: F<L>, core: PathCore<L>) -> PathLanes<L> {
-        PathLanes::start(ray, core).leaving(self.at.as_previous(), pdf)
+        PathLanes::start(ray, core).leaving(self.at.light_context(), pdf)
     }
 
     /// The path that goes on as if there were no surface: it is still under way from the vertex before.
     #[inline(always)]
-    pub(crate) fn straight_on(&self, on: &StraightOn<L>, before: PreviousLanes<L>, any_volume: bool) -> PathLanes<L> {
+    pub(crate) fn straight_on(&self, on: &StraightOn<L>, before: LightSampleContext<L>, any_volume: bool) -> PathLanes<L> {
         let everywhere = self.alive | !self.alive;
-        let medium = self.media_towards(everywhere, everywhere, any_volume);
-        let core = PathCore { width: on.width, counts: self.core.counts + counts::STRAIGHT, medium, ..self.core };
+        let media = self.media_towards(everywhere, everywhere, any_volume);
+        let core = PathCore { width: on.width, counts: self.core.counts + counts::STRAIGHT, media, ..self.core };
         PathLanes::start(on.ray, core).leaving(before, self.pdf).having_passed(Some(on.passed))
     }
 }

@@ -1,6 +1,7 @@
 //! Compiled materials: closures, mixes of closures, and the shading programs that compute their parameters.
 
 use crate::graph::{OutputColumns, Program};
+use crate::tables::media::MediumTable;
 use crate::tables::shader_passes::ShaderOutputs;
 use gonio_bsdf::Surface;
 use gonio_bsdf::{ParameterValues, parameter::COUNT};
@@ -29,8 +30,8 @@ pub struct SurfaceMaterial {
     pub glow: Option<Box<Program>>,
     /// Whether it is one closure of several and does nothing but emit: its light is added at each hit, whichever closure paths go on with.
     pub emits_apart: bool,
-    /// Absorption a metre of what fills the closed mesh, if anything does.
-    pub interior: Option<[f32; 3]>,
+    /// What fills the closed mesh, a row of [`MaterialTable::media`], if anything does.
+    pub interior: Option<u32>,
     /// Whether the shading frame's tangent matters.
     pub anisotropic: bool,
     /// Whether it cuts a hole into the coverage.
@@ -82,6 +83,8 @@ pub struct MaterialTable {
     pub numbers: Vec<Shading>,
     /// Of the materials that have any, what they show in passes of their own.
     pub shader_outputs: Vec<ShaderOutputs>,
+    /// What fills meshes.
+    pub media: MediumTable,
     /// Whether any surface has an exit program.
     pub any_exit: bool,
 }
@@ -119,8 +122,8 @@ impl MaterialTable {
             Some(mix) => Shading::Mix(mix),
         }
     }
-    /// Absorption a metre of what fills meshes of a material of the geometry.
-    pub fn interior(&self, number: u32) -> Option<[f32; 3]> {
+    /// What fills meshes of a material of the geometry, a row of [`Self::media`].
+    pub fn interior(&self, number: u32) -> Option<u32> {
         let surface = match self.shading(number) {
             Shading::Surface(surface) => surface,
             Shading::Mix(mix) => self.mixes[mix as usize].first,

@@ -8,6 +8,7 @@ pub(crate) mod light_groups;
 pub(crate) mod links;
 pub(crate) mod material;
 pub(crate) mod matte_names;
+pub(crate) mod media;
 pub(crate) mod motion_vectors;
 pub(crate) mod photons;
 pub(crate) mod shader_passes;

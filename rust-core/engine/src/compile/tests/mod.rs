@@ -5,7 +5,7 @@ mod quantity;
 
 use super::{compile, openings};
 use crate::{
-    light::LightTable,
+    light::{LightSampleContext, LightTable},
     scene::{Goniogram, Light, LightShape, Mesh, Opening, OpeningShape, Origin, PhotometricType, Scene, Transform},
 };
 use gonio_simd::{Lanes, One, Vec3};
@@ -45,7 +45,8 @@ fn illuminance(table: &LightTable, p: [f64; 3], n: [f64; 3], side: u64) -> [f64;
     for i in 0..count {
         let draw = |k: u64| uniform(seed.wrapping_add(3 * i + k));
         let u = [((i / side) as f64 + draw(1)) / side as f64, ((i % side) as f64 + draw(2)) / side as f64].map(|x| l.f(x as f32));
-        let s = table.sample_li(l, None, l.u(0), &splat(p), &splat(n), l.f(draw(0) as f32), &u);
+        let from = LightSampleContext { position: splat(p), normal: splat(n), receiver: l.u(0) };
+        let s = table.sample_li(l, None, &from, l.f(draw(0) as f32), &u);
         let (pdf, luminance) = (s.pdf.to_array()[0], s.radiance.luminance().to_array()[0]);
         let cosine = s.wi.dot(splat(n)).to_array()[0];
         let value = if pdf > 0.0 { f64::from(luminance * cosine.max(0.0)) / f64::from(pdf) } else { 0.0 };

@@ -125,11 +125,11 @@ fn light_by_fixed_samples<L: Lanes>(
     let (mut reached, mut before) = (lit, None);
     for fixed in samples {
         if !fixed.follows(before) {
-            reached = lit & tables.lights.reaches(l, fixed, point.at.receiver, point.at.position, point.at.frame.z);
+            reached = lit & tables.lights.reaches(l, fixed, &point.at.light_context());
         }
         before = Some(fixed);
         if reached.any() {
-            let sample = kernels::sample_fixed(l, tables, fixed, point.at.receiver, &point.at.position, &point.at.frame.z);
+            let sample = kernels::sample_fixed(l, tables, fixed, &point.at.light_context());
             queue_shadow_ray(chunk, point, lobes, (&sample, SampleWeight::Fixed(fixed.share)), reached, shadows, deposits);
         }
     }
@@ -164,8 +164,8 @@ fn branch<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, ray: &Branch
         (point.at.spawn_ray(wi), point.core.width, None)
     };
     let straight = chunk.l.m(way == Way::Straight);
-    let medium = point.media_towards(across, straight, chunk.tables.any_volume);
-    let core = PathCore { throughput, width, flags: flags(chunk, point, way), counts: point.core.counts + counted, medium, ..point.core };
+    let media = point.media_towards(across, straight, chunk.tables.any_volume);
+    let core = PathCore { throughput, width, flags: flags(chunk, point, way), counts: point.core.counts + counted, media, ..point.core };
     branches.ways[way as usize].append(&point.go_on(ray, share, core).having_passed(passed), alive);
 }
 

@@ -2,6 +2,7 @@
 
 pub(crate) mod corners;
 pub(crate) mod covered;
+pub(crate) mod found_light;
 pub(crate) mod intersect;
 pub(crate) mod segments;
 pub(crate) mod sort;

@@ -60,7 +60,7 @@ impl<'a> Segments<'a> {
     pub fn flux(&self, segment: usize, distance: f32) -> [f32; 3] {
         let path = One.u(segment as u32);
         let way = distance - self.paths.rays.passed.distance(One, path).0;
-        let left = (self.paths.medium.gather(One, path) * One.f(-way)).exp();
+        let left = self.paths.media.gather(One, path).transmittance(One.f(way));
         let flux = self.starts.carried(One, self.paths.track(One, path).slot, self.paths.carried(One, path).throughput);
         let Rgb { r, g, b } = to_film(flux * left);
         [r.0, g.0, b.0]

@@ -6,7 +6,7 @@ use crate::state::chunk::ChunkContext;
 use crate::state::columns::load3;
 use crate::state::queue::light_samples::LightSampleQueue;
 use gonio_camera::sampler::dimension;
-use gonio_light::LightSample;
+use gonio_light::{LightSample, LightSampleContext};
 use gonio_simd::{F, Lanes, Vec3};
 
 /// The light samples of a register of hits; the chunk's first call samples for all later hits too. `is_fibre` where no side is dark.
@@ -54,7 +54,8 @@ fn select_lights<L: Lanes>(chunk: &ChunkContext<'_, L>, at: usize, is_fibre: boo
     let p = load3(l, &surface.position, at);
     let n = if is_fibre { Vec3::splat(l, [0.0; 3]) } else { load3(l, &surface.shading_normal, at) };
     let receiver = tables.links.receiver(l, l.load_integers(&surface.instance, at));
-    let (light, probability) = tables.lights.sample_light(l, transport.light_cache.as_deref(), receiver, &p, &n, u_light);
+    let from = LightSampleContext { position: p, normal: n, receiver };
+    let (light, probability) = tables.lights.sample_light(l, transport.light_cache.as_deref(), &from, u_light);
     light.store(&mut queue.light, at);
     l.store_quads([F::from_bits(light), probability, u, v], &mut queue.selected, at);
     l.store_quads([p.x, p.y, p.z, l.f(0.0)], &mut queue.position, at);
@@ -68,6 +69,7 @@ fn sample_selected<L: Lanes>(chunk: &ChunkContext<'_, L>, at: usize, queue: &mut
     let hit = l.load_integers(&queue.order, at);
     let [light, probability, u, v] = l.gather_quads(&queue.selected, hit << 2);
     let (p, n) = (Vec3::gather(l, &queue.position, hit << 2), Vec3::gather(l, &queue.normal, hit << 2));
-    let sample = chunk.tables.lights.sample_li_of(l, (light.to_bits(), probability), &p, &n, &[u, v]);
+    let from = LightSampleContext { position: p, normal: n, receiver: l.u(0) };
+    let sample = chunk.tables.lights.sample_li_of(l, (light.to_bits(), probability), &from, &[u, v]);
     queue.store(l, &sample, at);
 }

@@ -56,9 +56,9 @@ pub(crate) fn light_by_fixed_samples<L: Lanes>(
     for place in range.clone().step_by(L::COUNT) {
         let point = load_point(l, place, l.first(range.end - place), chunk.points);
         for fixed in samples {
-            let reached = tables.lights.reaches(l, fixed, point.at.receiver, point.at.position, point.at.frame.z) & point.alive;
+            let reached = tables.lights.reaches(l, fixed, &point.at.light_context()) & point.alive;
             if reached.any() {
-                let sample = kernels::sample_fixed(l, tables, fixed, point.at.receiver, &point.at.position, &point.at.frame.z);
+                let sample = kernels::sample_fixed(l, tables, fixed, &point.at.light_context());
                 queue_shadow_ray(chunk, &point, &sample, SampleWeight::Fixed(fixed.share), shadows, deposits);
             }
         }
@@ -83,8 +83,7 @@ pub(crate) fn light_and_start<L: Lanes>(
         if !tables.lights.is_empty() {
             let [u, v] = context.sampler.pair(l, index, base + dimension::LIGHT);
             let light_cache = transport.light_cache.as_deref();
-            let (receiver, normal) = (point.at.receiver, &point.at.frame.z);
-            let sample = kernels::sample_li(l, tables, light_cache, receiver, &point.at.position, normal, &[u_light, u, v]);
+            let sample = kernels::sample_li(l, tables, light_cache, &point.at.light_context(), &[u_light, u, v]);
             queue_shadow_ray(chunk, &point, &sample, SampleWeight::Mis, shadows, deposits);
         }
         if let (Some(photons), true) = (&transport.photons, transport.first_light != FirstLight::Discs) {
@@ -134,10 +133,8 @@ fn queue_shadow_ray<L: Lanes>(
     let lit = usable & value.is_lit() & value.abs().max_component().is_finite();
     deposits.note_lost(&point.at, point.alive.and_not(lit));
     let light = Contribution::sampled(sample.light, point.core.slot, value, chunk.l.u(0), None);
-    let medium = if chunk.tables.any_absorbing { Some(point.core.medium) } else { None };
-    let straight = gone_straight(chunk.tables, chunk.transport, chunk.l.u(0));
     // What is measured is never clamped.
-    let along = Along { medium, straight, ceiling: Some(chunk.l.f(f32::MAX)) };
+    let along = Along::new(chunk.tables, chunk.transport, point.core.media, chunk.l.u(0), Some(chunk.l.f(f32::MAX)));
     send(chunk.transport, (&point.at, point.at.spawn_ray_to(sample)), (sample, along), &light, lit, shadows, deposits);
 }
 
@@ -154,7 +151,7 @@ fn start<L: Lanes>(l: L, point: &MeasuredPoint<L>, u: [F<L>; 2], brought: u32, n
         counts: l.u(counts::DIFFUSE),
         ..point.core
     };
-    next.append(&PathLanes::start(point.at.spawn_ray(direction), core).leaving(point.at.as_previous(), local.z * FRAC_1_PI), alive);
+    next.append(&PathLanes::start(point.at.spawn_ray(direction), core).leaving(point.at.light_context(), local.z * FRAC_1_PI), alive);
 }
 
 /// A direction of the cosine distribution about +z (Malley's method).

@@ -8,4 +8,3 @@ pub(crate) mod merge;
 pub(crate) mod nee;
 pub(crate) mod shadow;
 pub(crate) mod terminator;
-pub(crate) mod transmittance;

@@ -4,18 +4,15 @@ use crate::accumulate::deposit::{Contribution, Deposits, code_of_sampled};
 use crate::accumulate::expression_sums::with_sample;
 use crate::kernels;
 use crate::stage::light::terminator::Lifted;
-use crate::stage::light::transmittance;
 use crate::stage::shade::catcher;
 use crate::stage::shade::guided::with_guiding;
 use crate::state::chunk::ChunkContext;
-use crate::state::queue::shadow_rays::{ShadowLanes, ShadowRays};
+use crate::state::queue::shadow_rays::{Along, ShadowLanes, ShadowRays};
 use crate::state::rays::RayLanes;
 use crate::state::vertex::{Interaction, Vertex};
-use crate::tables::Tables;
 use crate::tables::transport::Transport;
-use crate::words::counts;
 use gonio_bsdf::Lobes;
-use gonio_light::{LightSample, SampleWeight};
+use gonio_light::{LightSample, LightSampleContext, SampleWeight};
 use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
 
 /// Samples one light and queues the shadow ray to it.
@@ -30,9 +27,8 @@ pub(crate) fn sample_light<L: Lanes>(
     deposits: &mut Deposits,
 ) {
     let ChunkContext { l, tables, transport, .. } = *chunk;
-    let normal = point.at.lit_normal(lobes);
-    let Interaction { position, receiver, .. } = point.at;
-    let sample = kernels::sample_li(l, tables, transport.light_cache.as_deref(), receiver, &position, &normal, &u);
+    let from = LightSampleContext { normal: point.at.lit_normal(lobes), ..point.at.light_context() };
+    let sample = kernels::sample_li(l, tables, transport.light_cache.as_deref(), &from, &u);
     queue_shadow_ray(chunk, point, lobes, (&sample, SampleWeight::Mis), present, shadows, deposits);
 }
 
@@ -85,8 +81,7 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
     let code = with_sample(transport.passes.expressions.as_deref(), code_of_sampled(point.core.flags), point.core.flags, !wi.z.gt(0.0));
     let shares = if deposits.wants_shares(transport) { Some(shares(l, lobes, point.local_wo, wi, f)) } else { None };
     let light = Contribution::sampled(sample.light, point.core.slot, value, code, shares);
-    let medium = transmittance::medium_towards(tables, point, sample.wi);
-    let along = Along { medium, straight: gone_straight(tables, transport, point.core.counts), ceiling };
+    let along = point.along(tables, transport, sample.wi, ceiling);
     // One call each: rays of both in one place would be copied through memory.
     match &lifted {
         None => send(transport, (&point.at, point.at.spawn_ray_to(sample)), (sample, along), &light, lit, shadows, deposits),
@@ -128,20 +123,6 @@ pub(crate) fn seen_share<L: Lanes>(chunk: &ChunkContext<'_, L>, [diffuse, glossy
     seen.max(0.0)
 }
 
-/// How many surfaces paths have gone straight through, where their number is limited.
-#[inline(always)]
-pub(crate) fn gone_straight<L: Lanes>(tables: &Tables, transport: &Transport, counts: U<L>) -> Option<U<L>> {
-    if tables.any_transparent && transport.limits.counts_straight() { Some(counts::straight(counts)) } else { None }
-}
-
-/// What a shadow ray takes along; see [`ShadowLanes`].
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Along<L: Lanes> {
-    pub(crate) medium: Option<Spectrum<L>>,
-    pub(crate) straight: Option<U<L>>,
-    pub(crate) ceiling: Option<F<L>>,
-}
-
 /// Deposits the light of a sample at once where nothing can block it, else queues it with its shadow ray from there.
 #[inline(always)]
 pub(crate) fn send<L: Lanes>(
@@ -156,8 +137,7 @@ pub(crate) fn send<L: Lanes>(
     deposits.deposit(transport, light, lit.and_not(sample.casts_shadow));
     let Contribution { slot, value: contribution, code, shares, .. } = *light;
     let receiver = if deposits.arrivals.is_some() { Some(at.receiver) } else { None };
-    let Along { medium, straight, ceiling } = along;
-    let ray = ShadowLanes { ray, contribution, slot, code, light: sample.light, shares, receiver, medium, straight, ceiling };
+    let ray = ShadowLanes { ray, contribution, slot, code, light: sample.light, shares, receiver, along };
     shadows.append(&ray, lit & sample.casts_shadow);
 }
 

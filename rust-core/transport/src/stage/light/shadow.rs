@@ -8,7 +8,6 @@ use crate::kernels;
 use crate::stage::find::surface::{ChunkRays, ChunkSource};
 use crate::stage::light::glow;
 use crate::stage::light::linked_shadow;
-use crate::stage::light::transmittance;
 use crate::stage::shade::catcher;
 use crate::state::chunk::ChunkColumns;
 use crate::state::columns::load3;
@@ -108,7 +107,7 @@ fn block_deep(limits: &Limits, trace: &mut ShadowTrace, shadows: &ShadowRays) {
 /// Multiplies contributions by the transmittance of the surfaces their rays passed, material by material.
 fn dim_by_surfaces(tables: &Tables, transport: &Transport, trace: &mut ShadowTrace, shadows: &mut ShadowRays, columns: &mut ChunkColumns) {
     if tables.any_absorbing {
-        dispatch!(transport.execution, l => transmittance::begin_depths(l, shadows, trace));
+        dispatch!(transport.execution, l => trace.depth.begin(l, &shadows.media, shadows.count));
     }
     if tables.any_transparent && transport.limits.counts_straight() {
         block_deep(&transport.limits, trace, shadows);
@@ -129,7 +128,7 @@ fn dim_by_surfaces(tables: &Tables, transport: &Transport, trace: &mut ShadowTra
     }
     trace.passed = passed;
     if tables.any_absorbing {
-        dispatch!(transport.execution, l => transmittance::attenuate(l, shadows, trace));
+        dispatch!(transport.execution, l => attenuate(l, shadows, trace));
     }
 }
 
@@ -166,8 +165,17 @@ fn dim_chunk<L: Lanes>(
     for (i, hit) in hits.iter().enumerate() {
         shadows.contribution.multiply(hit.ray as usize, factors, i);
     }
-    if let Some(interior) = tables.materials.interior(material) {
-        transmittance::add_depths(l, interior, hits, &columns.surface.side, trace);
+    if let Some(row) = tables.materials.interior(material) {
+        trace.depth.add(l, (&tables.materials.media, row), hits, &columns.surface.side);
+    }
+}
+
+/// Dims what shadow rays carry by what they go through.
+#[inline(always)]
+fn attenuate<L: Lanes>(l: L, shadows: &mut ShadowRays, trace: &ShadowTrace) {
+    for at in (0..shadows.count).step_by(L::COUNT) {
+        let left = trace.depth.transmittance(l, &shadows.rays.t_max, at);
+        shadows.contribution.store(shadows.contribution.load(l, at) * left, at);
     }
 }
 

@@ -15,6 +15,7 @@ use crate::tables::Tables;
 use crate::words::{flag, ray_mask};
 use gonio_accel::{Hits, NONE};
 use gonio_camera::sampler::{BATCH, pixel};
+use gonio_light::EscapedRay;
 use gonio_simd::{Lanes, M, U};
 
 /// First slot of the halves that see all of the scene.
@@ -114,7 +115,8 @@ pub(crate) fn add_behind<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &mut Vert
         add(coverage, pixel, point.share, caught);
     }
     if transport.shows_environment {
-        let radiance = kernels::eval_escaped(l, tables, None, from, direction, point.pdf, [caught, caught], None, l.u(0));
+        let ray = EscapedRay { direction, pdf: point.pdf, first: caught, delta: caught, kind: l.u(0) };
+        let radiance = kernels::eval_escaped(l, tables, None, &from, &ray, None);
         let value = transport.limits.clamped(radiance * point.core.throughput, point.bounces);
         add_rgb(behind, pixel, to_film(value), caught & value.is_lit());
     }

@@ -3,8 +3,7 @@
 use crate::accumulate::deposit::{Deposits, code_of_found, to_film};
 use crate::stage::light::measure::MeasureContext;
 use crate::stage::light::merge::in_share;
-use crate::stage::light::nee::{gone_straight, seen_share, shares_of};
-use crate::stage::light::transmittance;
+use crate::stage::light::nee::{seen_share, shares_of};
 use crate::stage::shade::integrator::Integrator;
 use crate::stage::shade::scatter::{send_on, without_cut_outs};
 use crate::stage::shade::shading::{normals, way_numbers};
@@ -253,8 +252,6 @@ fn connect<'s, L: Lanes>(
     let code = code_of_found(bounces | event::DIFFUSE, 0);
     let ray = RayLanes { origin: to_lens.origin, direction: to_lens.direction, t_min: l.f(0.0), t_max: to_lens.t_max };
     queues.light_paths.connections.rays.append_time(time, lit, chunk.transport.shutter.is_some());
-    let medium = transmittance::medium_towards(chunk.tables, point, to);
-    let straight = gone_straight(chunk.tables, chunk.transport, point.core.counts);
     let sent = ShadowLanes {
         ray,
         contribution: value,
@@ -263,9 +260,7 @@ fn connect<'s, L: Lanes>(
         light,
         shares: Some(shares),
         receiver: None,
-        medium,
-        straight,
-        ceiling: None,
+        along: point.along(chunk.tables, chunk.transport, to, None),
     };
     queues.light_paths.connections.rays.append(&sent, lit);
 }

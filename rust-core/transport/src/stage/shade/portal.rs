@@ -4,11 +4,12 @@
 
 use crate::state::chunk::ChunkContext;
 use crate::state::path_core::PathCore;
-use crate::state::paths::{PathLanes, Paths, PreviousLanes};
+use crate::state::paths::{PathLanes, Paths};
 use crate::state::rays::RayLanes;
 use crate::state::vertex::Vertex;
 use crate::words::{counts, flag};
 use gonio_bsdf::Portal;
+use gonio_light::LightSampleContext;
 use gonio_simd::{F, Lanes, M, Vec3};
 
 /// The square of the distance in metres below which a place is that of the hit itself.
@@ -35,7 +36,7 @@ pub(crate) fn pass_on<L: Lanes>(
     // Light paths find no way back through it.
     let flags = (point.core.flags & !flag::LIGHT_BROUGHT) | (flag::DELTA | flag::ROUGH);
     let core = PathCore { throughput, flags, counts: point.core.counts + counts::STRAIGHT, ..point.core };
-    let from = PreviousLanes { position: ray.origin, normal: ray.direction, receiver };
+    let from = LightSampleContext { position: ray.origin, normal: ray.direction, receiver };
     next.append(&PathLanes::start(ray, core).leaving(from, share), open);
 }
 

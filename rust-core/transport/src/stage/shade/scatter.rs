@@ -210,7 +210,7 @@ pub(crate) fn send_on<L: Lanes>(
     let counted = sample.diffuse.select(l.u(counts::DIFFUSE), sample.transmitted.select(l.u(counts::TRANSMISSION), l.u(counts::GLOSSY)));
     // What goes straight through a thin wall is still on its way from the vertex before, so that lights seen through it keep their weights.
     let straight = sample.straight;
-    let (mut from, mut pdf) = (point.at.as_previous(), sample.pdf);
+    let (mut from, mut pdf) = (point.at.light_context(), sample.pdf);
     let (mut ray, mut width, mut passed) = (point.at.spawn_ray(wi), point.core.width, None);
     from.normal = point.at.lit_normal(lobes);
     if straight.any() {
@@ -227,7 +227,7 @@ pub(crate) fn send_on<L: Lanes>(
         spread: point.core.spread + sample.roughness * CONE_PER_ROUGHNESS,
         flags: straight.select(point.core.flags | non_specular, scattered),
         counts: point.core.counts + straight.select(l.u(counts::STRAIGHT), counted),
-        medium: point.media_towards(across, straight, chunk.tables.any_volume),
+        media: point.media_towards(across, straight, chunk.tables.any_volume),
         ..point.core
     };
     next.append(&PathLanes::start(ray, core).leaving(from, pdf).having_passed(passed), alive);

@@ -8,7 +8,6 @@ use crate::accumulate::expression_sums::with_state;
 use crate::accumulate::guides::{add_guides, is_specular_path};
 use crate::geometry::NONE;
 use crate::kernels::{self, LightHit};
-use crate::stage::light::transmittance;
 use crate::stage::shade::catcher;
 use crate::stage::shade::first_surface::{add_first_surface, without_holdouts};
 use crate::stage::shade::integrator::Integrator;
@@ -144,18 +143,17 @@ fn absorb<L: Lanes>(
     at: usize,
 ) {
     let l = chunk.l;
-    point.core.medium = chunk.paths.medium.gather(l, point.path);
+    point.core.media = chunk.paths.media.gather(l, point.path);
     // What is before the surface that it went straight through last is behind it.
     let distance = l.gather(&chunk.hits.t, point.path) - chunk.paths.rays.passed.distance(l, point.path);
-    point.core.throughput = point.core.throughput * (point.core.medium * -distance).exp();
+    point.core.throughput = point.core.throughput * point.core.media.transmittance(distance);
     let inside = material.surface.absorption(l, values, at);
     let entering = l.load(&chunk.columns.surface.side, at).gt(0.0);
-    point.behind = if chunk.tables.any_volume {
-        transmittance::medium_behind(point.core.medium, inside, material.interior, entering)
-    } else {
-        // Leaving a solid leads to the open.
-        inside.keep_if(entering)
+    let enclosed = match material.interior {
+        Some(row) => inside + chunk.tables.materials.media.absorption(l, row),
+        None => inside,
     };
+    point.behind = point.core.media.behind(enclosed, entering, chunk.tables.any_volume);
 }
 
 /// Records the denoisers' guides and measured points; returns where lights can be sampled (not purely specular), and which paths go on.

@@ -2,14 +2,14 @@
 
 use crate::state::light_paths::LightStarts;
 use crate::state::path_core::PathCore;
-use crate::state::paths::{PathLanes, Paths, PreviousLanes};
+use crate::state::paths::{PathLanes, Paths};
 use crate::state::rays::RayLanes;
 use crate::state::sample::SampleContext;
 use crate::tables::Tables;
 use crate::words::flag;
 use gonio_bsdf::parameter::spectrum;
 use gonio_camera::sampler::{BATCH, dimension};
-use gonio_light::{EmissionSampler, EmittedRay};
+use gonio_light::{EmissionSampler, EmittedRay, LightSampleContext};
 use gonio_simd::{Lanes, PADDING, Rgb, U, Vec3};
 
 /// Where light paths start.
@@ -116,7 +116,7 @@ fn numbers<L: Lanes>(l: L, count: usize, batch: u64, first: u32) -> U<L> {
 #[inline(always)]
 fn started<L: Lanes>(l: L, ray: &EmittedRay<L>, slot: U<L>) -> PathLanes<L> {
     let off = ray.origin.max_abs() * OFFSET;
-    let from = PreviousLanes { position: ray.origin, normal: ray.normal, receiver: l.u(0) };
+    let from = LightSampleContext { position: ray.origin, normal: ray.normal, receiver: l.u(0) };
     let ray = RayLanes { origin: ray.normal.mul_add(off, ray.origin), direction: ray.direction, t_min: l.f(0.0), t_max: l.f(f32::MAX) };
     // Seen by what sees shadow rays, as all that a light sends.
     let core = PathCore::new(l, slot, l.u(flag::DELTA | flag::FROM_LIGHT));

@@ -1,6 +1,6 @@
 //! Ray generation: a camera ray with its ray cone, the start of a path, for every slot of a batch.
 
-use crate::stage::light::transmittance::absorption;
+use crate::media::set::MediaSet;
 use crate::state::path_core::PathCore;
 use crate::state::paths::{PathLanes, Paths};
 use crate::state::rays::RayLanes;
@@ -37,7 +37,7 @@ pub fn generate<L: Lanes>(
     paths: &mut Paths,
 ) {
     paths.clear();
-    let medium = absorption(l, camera.medium);
+    let media = MediaSet::at_place(l, camera.medium);
     for [slot, first_pixel, sample] in runs.registers(L::COUNT) {
         let pixel = l.iota() + first_pixel;
         let (x, y) = (morton_even(pixel), morton_even(pixel >> 1));
@@ -59,7 +59,7 @@ pub fn generate<L: Lanes>(
         };
         let raster = [(x + area.min[0]).to_float() + 0.5 + u, (y + area.min[1]).to_float() + 0.5 + v];
         let ray = if times.is_empty() { camera.ray(l, raster, lens) } else { camera.ray_at(l, raster, lens, l.load(times, slot as usize)) };
-        paths.append(&started(l, &ray, l.iota() + slot, (medium, camera.squared_index)), inside & ray.mapped);
+        paths.append(&started(l, &ray, l.iota() + slot, (media, camera.squared_index)), inside & ray.mapped);
     }
     paths.set_masks();
 }
@@ -68,7 +68,7 @@ pub fn generate<L: Lanes>(
 #[inline(always)]
 pub(crate) fn generate_at<L: Lanes>(l: L, camera: &CameraTable, places: [&[f32]; 2], slots: &[u32], paths: &mut Paths) {
     paths.clear();
-    let medium = absorption(l, camera.medium);
+    let media = MediaSet::at_place(l, camera.medium);
     let (mut x, mut y, mut slot) = ([0.0; PADDING], [0.0; PADDING], [0; PADDING]);
     for first in (0..slots.len()).step_by(L::COUNT) {
         let end = (first + L::COUNT).min(slots.len());
@@ -76,16 +76,16 @@ pub(crate) fn generate_at<L: Lanes>(l: L, camera: &CameraTable, places: [&[f32];
         y[..end - first].copy_from_slice(&places[1][first..end]);
         slot[..end - first].copy_from_slice(&slots[first..end]);
         let ray = camera.ray(l, [l.load(&x, 0), l.load(&y, 0)], [l.f(0.5); 2]);
-        paths.append(&started(l, &ray, l.load_integers(&slot, 0), (medium, camera.squared_index)), l.first(end - first) & ray.mapped);
+        paths.append(&started(l, &ray, l.load_integers(&slot, 0), (media, camera.squared_index)), l.first(end - first) & ray.mapped);
     }
     paths.set_masks();
 }
 
 /// The path of a camera ray that starts in something that absorbs and refracts so.
 #[inline(always)]
-fn started<L: Lanes>(l: L, ray: &CameraRay<L>, slot: U<L>, (medium, squared_index): (Spectrum<L>, f32)) -> PathLanes<L> {
+fn started<L: Lanes>(l: L, ray: &CameraRay<L>, slot: U<L>, (media, squared_index): (MediaSet<L>, f32)) -> PathLanes<L> {
     let throughput = Spectrum::constant(l.f(squared_index));
     let core =
-        PathCore { throughput, width: ray.width, spread: ray.spread, medium, ..PathCore::new(l, slot, l.u(flag::CAMERA | flag::DELTA)) };
+        PathCore { throughput, width: ray.width, spread: ray.spread, media, ..PathCore::new(l, slot, l.u(flag::CAMERA | flag::DELTA)) };
     PathLanes::start(RayLanes { origin: ray.origin, direction: ray.direction, t_min: ray.t_min, t_max: ray.t_max }, core)
 }

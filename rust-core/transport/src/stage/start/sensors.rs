@@ -3,6 +3,7 @@
 //! A sensor owns a square block of pixels, which follow one another along the Morton curve. So their samples together are one net of the
 //! sampler's sequence, and the lanes of a register lie side by side.
 
+use crate::media::set::MediaSet;
 use crate::stage::start::generate::TileArea;
 use crate::state::columns::gather3;
 use crate::state::path_core::PathCore;
@@ -10,10 +11,9 @@ use crate::state::paths::{PathLanes, Paths};
 use crate::state::queue::measure_points::{MeasureLanes, MeasurePoints};
 use crate::state::rays::RayLanes;
 use crate::words::flag;
-use gonio_bsdf::parameter::spectrum;
 use gonio_camera::sampler::{Runs, TILE, morton_even};
 use gonio_camera::sampler::{Sampler, dimension};
-use gonio_simd::{Column, Lanes, Rgb, Spectrum};
+use gonio_simd::{Column, Lanes, Spectrum};
 
 /// A sensor, rebased world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -131,10 +131,9 @@ pub(crate) fn start_sensors<L: Lanes>(
         let normal = (gather3(l, &sensors.normal, sensor) * cos + gather3(l, &sensors.side, sensor) * sin).normalize();
         let position = gather3(l, &sensors.position, sensor);
         let looks = l.gather_integers(&sensors.looks, sensor).ne(0);
-        let [r, g, b] = &sensors.medium;
-        let medium = spectrum(Rgb::new(l.gather(r, sensor), l.gather(g, sensor), l.gather(b, sensor)));
+        let media = MediaSet::at_places(l, &sensors.medium, sensor);
         let throughput = Spectrum::constant(l.gather(&sensors.squared_index, sensor));
-        let core = PathCore { throughput, medium, ..PathCore::new(l, slot, l.u(flag::CAMERA | flag::DELTA)) };
+        let core = PathCore { throughput, media, ..PathCore::new(l, slot, l.u(flag::CAMERA | flag::DELTA)) };
         let point = MeasureLanes {
             position,
             error: l.gather(&sensors.error, sensor),

@@ -6,7 +6,7 @@ use crate::accumulate::deposit::to_film;
 use crate::kernels;
 use crate::stage::find::sort::for_materials;
 use crate::stage::find::surface::{ChunkRays, ChunkSource};
-use crate::stage::light::transmittance::absorption;
+use crate::media::set::MediaColumns;
 use crate::state::media::StartRoom;
 use crate::state::rays::Rays;
 use crate::tables::Tables;
@@ -32,9 +32,9 @@ pub fn medium_at(tables: &Tables, place: [f64; 3]) -> [f32; 3] {
         rays.origin[axis][0] = origin[axis];
         rays.direction[axis][0] = DIRECTION[axis];
     }
-    let mut media = SpectrumColumns::new(PADDING);
+    let mut media = MediaColumns::new(PADDING);
     start_media(tables, Execution::Scalar, &tables.bodies.all, &rays, 1, &mut media, &mut StartRoom::default());
-    let Rgb { r, g, b } = to_film(media.load(One, 0));
+    let Rgb { r, g, b } = to_film(media.load(One, 0).absorption());
     [r.0, g.0, b.0]
 }
 
@@ -45,7 +45,7 @@ pub(crate) fn start_media(
     bodies: &[Body],
     rays: &Rays,
     count: usize,
-    media: &mut SpectrumColumns,
+    media: &mut MediaColumns,
     room: &mut StartRoom,
 ) {
     cross_all(tables, execution, bodies, rays, count, room);
@@ -55,7 +55,7 @@ pub(crate) fn start_media(
     look_up(tables, execution, rays, room);
     if tables.any_volume {
         add_all(room, media);
-        dispatch!(execution, l => without_less_than_nothing(l, media, count));
+        dispatch!(execution, l => media.hold(l, count));
     } else {
         add_innermost(room, media);
     }
@@ -150,8 +150,8 @@ fn look_up_chunk<L: Lanes>(l: L, tables: &Tables, material: u32, hits: &[Transpa
             }
         }
     }
-    if let Some(interior) = tables.materials.interior(material) {
-        let filling = absorption(l, interior);
+    if let Some(row) = tables.materials.interior(material) {
+        let filling = tables.materials.media.absorption(l, row);
         (0..hits.len()).step_by(L::COUNT).for_each(|at| room.chunk.store(room.chunk.load(l, at) + filling, at));
     }
 }
@@ -184,21 +184,15 @@ fn add_inside<L: Lanes>(
 }
 
 /// Volumes add up: what rays leave more often than they enter.
-fn add_all(room: &StartRoom, media: &mut SpectrumColumns) {
+fn add_all(room: &StartRoom, media: &mut MediaColumns) {
     for (i, (crossing, side)) in room.crossings.iter().zip(&room.sides).enumerate() {
         media.add(crossing.ray as usize, &room.absorption, i, -side);
     }
 }
 
-/// Open meshes may be left without having been entered, or the other way round.
-#[inline(always)]
-fn without_less_than_nothing<L: Lanes>(l: L, media: &mut SpectrumColumns, count: usize) {
-    (0..count).step_by(L::COUNT).for_each(|at| media.store(media.load(l, at).max(0.0), at));
-}
-
 /// Solids take each other's place: what the nearest surface encloses of those that hold the place. A surface that faces inwards bounds a hole, which takes
 /// away the solid about it.
-fn add_innermost(room: &StartRoom, media: &mut SpectrumColumns) {
+fn add_innermost(room: &StartRoom, media: &mut MediaColumns) {
     let StartRoom { crossings, sides, absorption, .. } = room;
     let mut order: Vec<usize> = (0..crossings.len()).collect();
     let (body, t) = (|i: &usize| (crossings[*i].ray, crossings[*i].instance), |i: &usize| crossings[*i].t);

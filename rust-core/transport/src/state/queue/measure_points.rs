@@ -1,5 +1,6 @@
 //! The queue of points whose illuminance is to be measured: `stage/shade/shading.rs` and `stage/start/sensors.rs` fill it, `stage/light/measure.rs` empties it.
 
+use crate::media::set::MediaColumns;
 use crate::state::columns::{Columns3, append3, columns3};
 use crate::state::path_core::PathCore;
 use gonio_camera::sampler::BATCH;
@@ -18,8 +19,8 @@ pub(crate) struct MeasurePoints {
     pub(crate) slot: Column<u32>,
     /// Classes of receivers, see [`crate::state::vertex::Interaction`].
     pub(crate) receiver: Column<u32>,
-    /// Absorption a metre of what is before them.
-    pub(crate) medium: SpectrumColumns,
+    /// What is before them.
+    media: MediaColumns,
 }
 
 impl Default for MeasurePoints {
@@ -35,7 +36,7 @@ impl Default for MeasurePoints {
             width: Column::new(room),
             slot: Column::new(room),
             receiver: Column::new(room),
-            medium: SpectrumColumns::new(room),
+            media: MediaColumns::new(room),
         }
     }
 }
@@ -67,7 +68,7 @@ impl MeasurePoints {
         point.core.width.append(chosen, &mut self.width, n);
         point.core.slot.append(chosen, &mut self.slot, n);
         point.receiver.append(chosen, &mut self.receiver, n);
-        self.medium.append(point.core.medium, chosen, n);
+        self.media.append(point.core.media, chosen, n);
         self.count += chosen.count();
     }
 
@@ -75,7 +76,7 @@ impl MeasurePoints {
     #[inline(always)]
     pub(crate) fn core<L: Lanes>(&self, l: L, at: usize) -> PathCore<L> {
         let slot = l.load_integers(&self.slot, at) + BATCH as u32;
-        let (throughput, width, medium) = (self.throughput.load(l, at), l.load(&self.width, at), self.medium.load(l, at));
-        PathCore { throughput, width, medium, ..PathCore::new(l, slot, l.u(0)) }
+        let (throughput, width, media) = (self.throughput.load(l, at), l.load(&self.width, at), self.media.load(l, at));
+        PathCore { throughput, width, media, ..PathCore::new(l, slot, l.u(0)) }
     }
 }

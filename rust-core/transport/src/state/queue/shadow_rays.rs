@@ -1,9 +1,12 @@
 //! The queue of shadow rays that next event estimation (NEE) sends: `stage/light/nee.rs` fills it, `stage/light/shadow.rs` traces it.
 
 use crate::graph::CHUNK;
+use crate::media::set::{MediaColumns, MediaSet};
 use crate::state::rays::{RayLanes, Rays};
 use crate::state::times::SlotTimes;
-use crate::words::ray_mask;
+use crate::tables::Tables;
+use crate::tables::transport::Transport;
+use crate::words::{counts, ray_mask};
 use gonio_camera::sampler::CAPACITY;
 use gonio_simd::{Column, F, Lanes, M, PADDING, Spectrum, SpectrumColumns, U, padded};
 
@@ -26,12 +29,28 @@ pub(crate) struct ShadowLanes<L: Lanes> {
     pub(crate) shares: Option<[Spectrum<L>; 2]>,
     /// Class of the receiver, where the light cache learns.
     pub(crate) receiver: Option<U<L>>,
-    /// Absorption a metre where it starts, where anything fills meshes.
-    pub(crate) medium: Option<Spectrum<L>>,
-    /// Surfaces that its path has gone straight through, where their number is limited.
-    pub(crate) straight: Option<U<L>>,
-    /// The most that it may bring in the mean of its channels, where programs know what lights emit and that is clamped.
-    pub(crate) ceiling: Option<F<L>>,
+    pub(crate) along: Along<L>,
+}
+
+/// What shadow rays take along from where they start.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Along<L: Lanes> {
+    /// What they start in, where anything fills meshes.
+    media: Option<MediaSet<L>>,
+    /// Surfaces that their paths have gone straight through, where their number is limited.
+    straight: Option<U<L>>,
+    /// The most that they may bring in the mean of their channels, where programs know what lights emit and that is clamped.
+    ceiling: Option<F<L>>,
+}
+
+impl<L: Lanes> Along<L> {
+    /// Of rays that start in these media, on paths with these counts of bounces.
+    #[inline(always)]
+    pub(crate) fn new(tables: &Tables, transport: &Transport, media: MediaSet<L>, counts: U<L>, ceiling: Option<F<L>>) -> Self {
+        let media = if tables.any_absorbing { Some(media) } else { None };
+        let limited = tables.any_transparent && transport.limits.counts_straight();
+        Self { media, straight: if limited { Some(counts::straight(counts)) } else { None }, ceiling }
+    }
 }
 
 /// Shadow rays, and the contribution of each if nothing blocks it.
@@ -50,8 +69,8 @@ pub(crate) struct ShadowRays {
     pub(crate) shares: [SpectrumColumns; 2],
     /// Classes of receivers; filled where the light cache learns.
     pub(crate) receiver: Column<u32>,
-    /// Absorption a metre where rays start; filled where anything fills meshes.
-    pub(crate) medium: SpectrumColumns,
+    /// What rays start in; filled where anything fills meshes.
+    pub(crate) media: MediaColumns,
     /// Surfaces that paths have gone straight through; filled where anything is transparent and their number is limited.
     pub(crate) straight: Column<u32>,
     /// Most that contributions may come to; filled where programs know what lights emit and contributions are clamped.
@@ -77,7 +96,7 @@ impl ShadowRays {
             light: Column::new(room),
             shares: [SpectrumColumns::new(room), SpectrumColumns::new(room)],
             receiver: Column::new(room),
-            medium: SpectrumColumns::new(room),
+            media: MediaColumns::new(room),
             straight: Column::new(room),
             ceiling: Column::new(room),
         }
@@ -126,13 +145,13 @@ impl ShadowRays {
         if let Some(receiver) = ray.receiver {
             receiver.append(chosen, &mut self.receiver, n);
         }
-        if let Some(medium) = ray.medium {
-            self.medium.append(medium, chosen, n);
+        if let Some(media) = ray.along.media {
+            self.media.append(media, chosen, n);
         }
-        if let Some(straight) = ray.straight {
+        if let Some(straight) = ray.along.straight {
             straight.append(chosen, &mut self.straight, n);
         }
-        if let Some(ceiling) = ray.ceiling {
+        if let Some(ceiling) = ray.along.ceiling {
             ceiling.append(chosen, &mut self.ceiling, n);
         }
         self.count += chosen.count();

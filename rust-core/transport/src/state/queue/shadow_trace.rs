@@ -1,6 +1,7 @@
 //! What tracing shadow rays needs beside their queue.
 
 use crate::graph::CHUNK;
+use crate::media::shadow::OpticalDepth;
 use crate::state::glow::GlowScratch;
 use crate::state::queue::shadow_order::ShadowOrder;
 use crate::state::queue::shadow_rays::SHADOW_ROOM;
@@ -23,11 +24,8 @@ pub(crate) struct ShadowTrace {
     pub(crate) weights: Vec<f32>,
     /// What a chunk of such hits lets pass.
     pub(crate) factors: SpectrumColumns,
-    /// By shadow ray, optical depth of what fills meshes, and absorption a metre where the ray ends; used where anything does.
-    pub(crate) depth: SpectrumColumns,
-    pub(crate) around: SpectrumColumns,
-    /// Absorption a metre of one such filling.
-    pub(crate) interior: SpectrumColumns,
+    /// What takes light from the rays between surfaces.
+    pub(crate) depth: OpticalDepth,
     pub(crate) linked: LinkedTrace,
     pub(crate) glow: GlowScratch,
 }
@@ -70,9 +68,7 @@ impl Default for ShadowTrace {
             crossed: Vec::new(),
             weights: Vec::new(),
             factors: SpectrumColumns::new(CHUNK),
-            depth: SpectrumColumns::new(SHADOW_ROOM),
-            around: SpectrumColumns::new(SHADOW_ROOM),
-            interior: SpectrumColumns::new(PADDING),
+            depth: OpticalDepth::new(SHADOW_ROOM),
             linked: LinkedTrace::default(),
             glow: GlowScratch::default(),
         }

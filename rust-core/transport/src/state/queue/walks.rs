@@ -1,5 +1,6 @@
 //! Subsurface random walks under way: started by `stage/shade/scatter.rs`, taken step by step in `stage/walk/subsurface.rs`.
 
+use crate::media::set::MediaSet;
 use crate::state::path_core::PathCore;
 use crate::state::paths::Paths;
 use crate::state::rays::{RayLanes, Rays};
@@ -8,7 +9,7 @@ use crate::words::ray_mask;
 use gonio_accel::Hits;
 use gonio_bsdf::subsurface::Medium;
 use gonio_camera::sampler::CAPACITY;
-use gonio_simd::{Column, Lanes, M, PADDING, Spectrum, SpectrumColumns, U, padded};
+use gonio_simd::{Column, Lanes, M, PADDING, SpectrumColumns, U, padded};
 
 /// Walks under way, a column entry each.
 #[derive(Debug)]
@@ -125,7 +126,7 @@ impl Walks {
             throughput: self.throughput.gather(l, walk),
             counts: l.gather_integers(&self.counts, walk),
             width: l.gather(&self.width, walk),
-            medium: if any_absorbing { paths.medium.gather(l, path) } else { Spectrum::zero(l) },
+            media: if any_absorbing { paths.media.gather(l, path) } else { MediaSet::open(l) },
             ..PathCore::new(l, l.gather_integers(&self.slot, walk), l.gather_integers(&self.flags, walk))
         }
     }

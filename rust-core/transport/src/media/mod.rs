@@ -1,0 +1,7 @@
+//! What lies between surfaces: the media that rays are in, and what these leave of light.
+//!
+//! [`set::MediaSet`] is what a ray is in, [`set::MediaColumns`] keep it where rays wait. Transmittance is asked for in two places alone: along a segment
+//! ([`set::MediaSet::transmittance`]), and along shadow rays that pass surfaces ([`shadow`]).
+
+pub(crate) mod set;
+pub(crate) mod shadow;
