@@ -110,7 +110,7 @@ fn no_circle_has_more_than_four_files() {
 }
 
 #[test]
-fn light_has_four_doors() {
+fn colour_becomes_light_by_doors_alone() {
     let found = |needle: &str| -> Vec<String> {
         let folders = CRATES.iter().map(|(name, _)| *name).filter(|name| *name != "simd").chain(["python", "cli", "bench"]);
         let lines = folders.flat_map(|name| lines_with(&format!("rust-core/{name}/src"), needle)).filter(|line| !line.contains("/tests/"));
@@ -119,8 +119,41 @@ fn light_has_four_doors() {
         files.sort();
         files
     };
-    assert_eq!(found("Spectrum::from_rgb("), ["bsdf/src/parameter.rs", "light/src/row.rs", "table/src/colours.rs"]);
+    let door = |name: &str| {
+        let mut files = found(&format!("Spectrum::{name}("));
+        files.dedup();
+        files
+    };
+    assert_eq!(
+        door("reflectance"),
+        [
+            "bsdf/src/measured/lobe.rs",
+            "bsdf/src/surface.rs",
+            "light/src/emission.rs",
+            "light/src/gate.rs",
+            "light/src/row.rs",
+            "transport/src/state/mix_weights.rs"
+        ]
+    );
+    assert_eq!(
+        door("coefficient"),
+        ["bsdf/src/film.rs", "bsdf/src/surface.rs", "transport/src/media/set.rs", "transport/src/tables/media.rs"]
+    );
+    assert_eq!(
+        door("radiance"),
+        [
+            "bsdf/src/surface.rs",
+            "light/src/emit/body.rs",
+            "light/src/row.rs",
+            "transport/src/tables/material.rs",
+            "transport/src/tables/photons.rs",
+            "transport/src/tables/ray_table.rs"
+        ]
+    );
     assert_eq!(found(".to_rgb()"), ["transport/src/accumulate/deposit.rs"]);
+    let mut named = lines_with("rust-core/transport/src/stage", "Rgb");
+    named.retain(|line| !line.contains("//"));
+    assert!(named.is_empty(), "stages know light, not colour: {named:#?}");
 }
 
 #[test]

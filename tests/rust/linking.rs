@@ -2,7 +2,7 @@
 
 use gonio::{
     compile::compile,
-    light::{LightKind, LightLinks, LightRecord, LightTable, LightTexture},
+    light::{LightKind, LightLinks, LightRecord, LightSampleContext, LightTable, LightTexture},
     light_paths::Watch,
     map::{MapOptions, TexelSize, illumination_maps},
     measure::{Watch as MeterWatch, measure},
@@ -320,16 +320,16 @@ fn classes_draw_the_lights_that_they_see() {
         links.allow(class, set);
     }
     let table = LightTable::build(&records, &[] as &[LightTexture], &[]).with_links(links.clone());
-    let (p, n) = (Vec3::splat(One, [0.5, 0.0, 0.5]), Vec3::splat(One, [0.0, 1.0, 0.0]));
+    let [position, normal] = [[0.5, 0.0, 0.5], [0.0, 1.0, 0.0]].map(|v| Vec3::splat(One, v));
     for class in 0..4 {
-        let receiver = One.u(class);
-        let pmf = |light: u32| f64::from(table.light_pmf(One, None, receiver, p, n, One.u(light)).to_array()[0]);
+        let from = LightSampleContext { position, normal, receiver: One.u(class) };
+        let pmf = |light: u32| f64::from(table.light_pmf(One, None, &from, One.u(light)).to_array()[0]);
         let sum: f64 = (0..150).map(pmf).sum();
         assert!((sum - 1.0).abs() < 1e-4, "{sum} of class {class}");
         let mut counts = [0; 150];
         for i in 0..20_000 {
             let u = (i as f32 + 0.5) / 20_000.0;
-            let (light, probability) = table.sample_light(One, None, receiver, &p, &n, One.f(u));
+            let (light, probability) = table.sample_light(One, None, &from, One.f(u));
             let light = light.to_array()[0];
             assert!(links.allows(class, links.set_of_light[light as usize]));
             assert!((f64::from(probability.to_array()[0]) / pmf(light) - 1.0).abs() < 1e-3);

@@ -109,10 +109,10 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
     /// The metal's reflectance.
     #[inline(always)]
     pub(super) fn metal_curve(&self) -> Curve<L> {
-        let (base, edge) = (self.spectrum(p::BASE_COLOR).saturate(), self.spectrum(p::METAL_EDGE_TINT).saturate());
+        let (base, edge) = (self.reflectance(p::BASE_COLOR).saturate(), self.reflectance(p::METAL_EDGE_TINT).saturate());
         let curve = match self.surface.switches.metal {
             Metal::F82 => Curve::f82(base, edge),
-            Metal::Conductor => Curve::Conductor { n: self.spectrum(p::METAL_N), k: self.spectrum(p::METAL_K) },
+            Metal::Conductor => Curve::Conductor { n: self.coefficient(p::METAL_N), k: self.coefficient(p::METAL_K) },
             Metal::Gulbrandsen => Curve::gulbrandsen(base, edge),
             Metal::Schlick => Curve::Schlick { f0: base, f90: edge },
         };
@@ -154,7 +154,7 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
         let shaped = (1.0 + root) / (1.0 - root);
         let moved = ior.lt(1.0).select(shaped.recip(), shaped);
         let eta = level.eq(1.0).select(ior, moved);
-        let (tint, scale) = (self.spectrum(p::SPECULAR_COLOR), self.get(p::SPECULAR_SCALE));
+        let (tint, scale) = (self.reflectance(p::SPECULAR_COLOR), self.get(p::SPECULAR_SCALE));
         let ends = match switches.tint {
             Tint::Normal => [(tint * normal).saturate() * scale, Spectrum::constant(scale)],
             Tint::WholeLobe => [tint * (normal.min(1.0) * scale), tint * scale],

@@ -20,7 +20,7 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
     /// The lobe that the switches name.
     #[inline(always)]
     fn single(&mut self) {
-        let colour = self.spectrum(p::BASE_COLOR).max(0.0);
+        let colour = self.reflectance(p::BASE_COLOR).max(0.0);
         match self.surface.switches.closure {
             Closure::Diffuse => self.diffuse_lobe(colour, Side::Reflected, Normal::Base),
             Closure::Translucent => self.diffuse_lobe(colour, Side::Mirrored, Normal::Specular),
@@ -103,7 +103,7 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
         let [variances, scales] = [self.vector(p::HAIR_VARIANCE), self.vector(p::HAIR_SCALE)];
         let appearance = Appearance {
             ior: self.get(p::IOR),
-            absorption: self.spectrum(p::HAIR_ABSORPTION),
+            absorption: self.coefficient(p::HAIR_ABSORPTION),
             variances: [variances.x, variances.y, variances.z],
             scales: [scales.x, scales.y, scales.z],
             tilt: self.get(p::HAIR_TILT),
@@ -117,7 +117,7 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
     /// Factors on what a fibre reflects, lets pass, and reflects inside.
     #[inline(always)]
     fn tints(&self) -> [Spectrum<L>; 3] {
-        [self.spectrum(p::HAIR_TINT_R), self.spectrum(p::HAIR_TINT_TT), self.spectrum(p::HAIR_TINT_TRT)]
+        [self.reflectance(p::HAIR_TINT_R), self.reflectance(p::HAIR_TINT_TT), self.reflectance(p::HAIR_TINT_TRT)]
     }
 
     /// A fibre of elliptic section; there is none where the view passes beside the ellipse.
@@ -126,7 +126,7 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
         let roughness = self.base_roughness();
         let fibre = Fibre {
             ior: self.get(p::IOR),
-            absorption: self.spectrum(p::HAIR_ABSORPTION),
+            absorption: self.coefficient(p::HAIR_ABSORPTION),
             alpha: roughness * roughness,
             tilt: self.get(p::HAIR_TILT),
             aspect: self.get(p::HAIR_ASPECT),

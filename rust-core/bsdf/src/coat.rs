@@ -35,7 +35,7 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
 
     #[inline(always)]
     pub(super) fn coat_tint(&mut self, presence: F<L>, ior: F<L>) {
-        let colour = self.spectrum(p::COAT_COLOR).max(1e-6);
+        let colour = self.reflectance(p::COAT_COLOR).max(1e-6);
         let view = (1.0 - (1.0 - self.coat_mu * self.coat_mu) / (ior * ior)).max(1e-4).inverse_root();
         let tint = CoatTint { log: colour.ln(), weight: presence, ior, view };
         match self.surface.switches.coat_path {
@@ -54,7 +54,7 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
         let (below, rough_share) = match &self.surface.measured {
             Some(bsdf) => {
                 let lobe = MeasuredLobe::new(bsdf, bsdf.front(self.l, self.entering));
-                let albedo = lobe.albedo(self.coat_wo) * self.spectrum(p::BASE_COLOR) * self.get(p::SPECULAR_SCALE);
+                let albedo = lobe.albedo(self.coat_wo) * self.reflectance(p::BASE_COLOR) * self.get(p::SPECULAR_SCALE);
                 (albedo.saturate(), self.l.f(lobe.roughness()))
             }
             None => self.base_albedo(),
@@ -68,10 +68,10 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
     /// What the base gives back, and how far it spreads it: 0 is a mirror, 1 is diffuse.
     #[inline(always)]
     fn base_albedo(&self) -> (Spectrum<L>, F<L>) {
-        let base = self.spectrum(p::BASE_COLOR).saturate();
+        let base = self.reflectance(p::BASE_COLOR).saturate();
         let metalness = self.get(p::METALNESS).saturate();
         let passed = self.get(p::TRANSMISSION_WEIGHT).saturate();
-        let body = base.lerp(self.spectrum(p::SUBSURFACE_COLOR).saturate(), self.get(p::SUBSURFACE_WEIGHT).saturate()) * (1.0 - passed);
+        let body = base.lerp(self.reflectance(p::SUBSURFACE_COLOR).saturate(), self.get(p::SUBSURFACE_WEIGHT).saturate()) * (1.0 - passed);
         let below = body.lerp(base * self.get(p::METAL_WEIGHT).saturate(), metalness);
         let roughness = self.get(p::ROUGHNESS).saturate();
         let f0 = fresnel::normal_reflectance(self.get(p::IOR)) * self.get(p::SPECULAR_WEIGHT);

@@ -8,7 +8,6 @@ use super::energy::floats;
 use super::fresnel::{f82_channel, f82_coefficients, gulbrandsen_channel, normal_reflectance};
 use core::f32::consts::PI;
 use gonio_simd::{F, Lanes, M, Rgb, Spectrum};
-use gonio_table::spectrum;
 
 /// Nodes along the path difference.
 const NODES: usize = 512;
@@ -70,7 +69,7 @@ fn sensitivity<L: Lanes>(l: L, difference: F<L>) -> Complex<L> {
         *value = low.lerp(high, t);
     }
     let [r, g, b, r_imaginary, g_imaginary, b_imaginary] = values;
-    [spectrum(Rgb::new(r, g, b)), spectrum(Rgb::new(r_imaginary, g_imaginary, b_imaginary))]
+    [Spectrum::coefficient(Rgb::new(r, g, b)), Spectrum::coefficient(Rgb::new(r_imaginary, g_imaginary, b_imaginary))]
 }
 
 /// The sum for one polarisation: reflectance `top` of the film's upper side, `bottom` of its lower one, `phase` of both inner reflections.

@@ -4,7 +4,6 @@
 
 use super::switches::{Closure, Switches, Tint};
 use core::f32::consts::TAU;
-use gonio_simd::{Lanes, Rgb, Spectrum};
 
 /// A named run of places in the block.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -195,12 +194,6 @@ pub const DEFAULTS: [f32; COUNT] = {
     }
     values
 };
-
-/// Door for light: a parameter, or the weight of a closure, as what it does to light. The first of the four doors; see ARCHITECTURE.md.
-#[inline(always)]
-pub fn spectrum<L: Lanes>(stored: Rgb<L>) -> Spectrum<L> {
-    Spectrum::from_rgb(stored)
-}
 
 /// The parameter called `name`, if there is one.
 pub fn find(name: &str) -> Option<&'static Parameter> {

@@ -143,7 +143,7 @@ impl Surface {
     #[inline(always)]
     pub fn emitted<L: Lanes>(&self, l: L, values: &ParameterValues, at: usize, wo: Vec3<L>, entering: M<L>) -> Spectrum<L> {
         if !self.covers_emission() {
-            return values.spectrum(l, p::EMISSION_COLOR, at);
+            return values.radiance(l, p::EMISSION_COLOR, at);
         }
         let mut lobes = Lobes::empty(l);
         resolve(l, self, &Hits::plain(values, at, wo, entering), &mut lobes);
@@ -170,8 +170,13 @@ impl<'s, L: Lanes> Layers<'s, '_, '_, L> {
     }
 
     #[inline(always)]
-    pub(super) fn spectrum(&self, offset: usize) -> Spectrum<L> {
-        self.values.spectrum(self.l, offset, self.at)
+    pub(super) fn reflectance(&self, offset: usize) -> Spectrum<L> {
+        self.values.reflectance(self.l, offset, self.at)
+    }
+
+    #[inline(always)]
+    pub(super) fn coefficient(&self, offset: usize) -> Spectrum<L> {
+        self.values.coefficient(self.l, offset, self.at)
     }
 
     #[inline(always)]
@@ -186,7 +191,7 @@ impl<'s, L: Lanes> Layers<'s, '_, '_, L> {
             self.lobes.opacity = self.get(p::OPACITY).saturate();
         }
         if set.emission && switches.emission_order == EmissionOrder::Top {
-            self.lobes.emission = self.spectrum(p::EMISSION_COLOR);
+            self.lobes.emission = self.values.radiance(self.l, p::EMISSION_COLOR, self.at);
         }
         if switches.closure != Closure::Layered {
             single(self.l, self);
@@ -206,10 +211,10 @@ impl<'s, L: Lanes> Layers<'s, '_, '_, L> {
                 Some(coat) => coat.along(coat.view),
                 None => self.white(),
             };
-            self.lobes.emission = self.spectrum(p::EMISSION_COLOR) * self.weight * tint;
+            self.lobes.emission = self.values.radiance(self.l, p::EMISSION_COLOR, self.at) * self.weight * tint;
         }
         if self.surface.measured.is_some() {
-            self.measured(self.spectrum(p::BASE_COLOR).max(0.0));
+            self.measured(self.reflectance(p::BASE_COLOR).max(0.0));
             return;
         }
         if set.metal {
@@ -267,7 +272,7 @@ impl<'s, L: Lanes> Layers<'s, '_, '_, L> {
             Fuzz::Velvet => FuzzLobe::velvet(roughness),
         };
         let presence = self.get(p::FUZZ_WEIGHT);
-        let colour = self.spectrum(p::FUZZ_COLOR) * presence;
+        let colour = self.reflectance(p::FUZZ_COLOR) * presence;
         self.push(Shape::Fuzz(lobe), self.weight * colour, self.weight * colour * albedo, None, Side::Reflected, Normal::Fuzz);
         if switches.fuzz == Fuzz::Velvet {
             return;
@@ -281,11 +286,11 @@ impl<'s, L: Lanes> Layers<'s, '_, '_, L> {
     #[inline(always)]
     pub(super) fn diffuse(&mut self) {
         let (set, switches) = (self.surface.lobes, self.surface.switches);
-        let mut base = self.deepened(self.spectrum(p::BASE_COLOR).max(0.0));
+        let mut base = self.deepened(self.reflectance(p::BASE_COLOR).max(0.0));
         let mut passed = None;
         if set.subsurface {
             let presence = self.get(p::SUBSURFACE_WEIGHT).saturate();
-            let mut inner = self.deepened(self.spectrum(p::SUBSURFACE_COLOR).max(0.0));
+            let mut inner = self.deepened(self.reflectance(p::SUBSURFACE_COLOR).max(0.0));
             if switches.thin_walled {
                 let forward = (self.get(p::SUBSURFACE_ANISOTROPY) + 1.0) * 0.5;
                 passed = Some(inner * (presence * forward));
@@ -310,7 +315,7 @@ impl<'s, L: Lanes> Layers<'s, '_, '_, L> {
             return colour;
         }
         let method = self.surface.switches.subsurface;
-        let radius = self.spectrum(p::SUBSURFACE_RADIUS);
+        let radius = self.coefficient(p::SUBSURFACE_RADIUS);
         let [scattered] = colour.zip(
             radius,
             #[inline(always)]

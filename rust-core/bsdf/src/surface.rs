@@ -101,7 +101,7 @@ impl Surface {
     #[inline(always)]
     pub fn absorption<L: Lanes>(&self, l: L, values: &ParameterValues, at: usize) -> Spectrum<L> {
         let depth = values.get(l, p::TRANSMISSION_DEPTH, at);
-        let colour = values.spectrum(l, p::TRANSMISSION_COLOR, at).saturate().max(1e-6);
+        let colour = values.reflectance(l, p::TRANSMISSION_COLOR, at).saturate().max(1e-6);
         let rate = (-depth.max(1e-9).recip()).keep_if(depth.gt(0.0));
         colour.ln() * rate
     }
@@ -229,9 +229,23 @@ impl<'a> ParameterValues<'a> {
             None => l.f(self.constants[offset]),
         }
     }
-    /// A colour, or another parameter of three places, for the hits from `at` on, as what it does to light.
     #[inline(always)]
-    pub fn spectrum<L: Lanes>(&self, l: L, offset: usize, at: usize) -> Spectrum<L> {
-        p::spectrum(Rgb::new(self.get(l, offset, at), self.get(l, offset + 1, at), self.get(l, offset + 2, at)))
+    fn colour<L: Lanes>(&self, l: L, offset: usize, at: usize) -> Rgb<L> {
+        Rgb::new(self.get(l, offset, at), self.get(l, offset + 1, at), self.get(l, offset + 2, at))
+    }
+    /// A colour for the hits from `at` on, as what it does to light.
+    #[inline(always)]
+    pub fn reflectance<L: Lanes>(&self, l: L, offset: usize, at: usize) -> Spectrum<L> {
+        Spectrum::reflectance(self.colour(l, offset, at))
+    }
+    /// Another parameter that differs by wavelength.
+    #[inline(always)]
+    pub fn coefficient<L: Lanes>(&self, l: L, offset: usize, at: usize) -> Spectrum<L> {
+        Spectrum::coefficient(self.colour(l, offset, at))
+    }
+    /// Emitted radiance.
+    #[inline(always)]
+    pub fn radiance<L: Lanes>(&self, l: L, offset: usize, at: usize) -> Spectrum<L> {
+        Spectrum::radiance(self.colour(l, offset, at))
     }
 }

@@ -26,9 +26,9 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
         let l = self.l;
         let presence = self.get(p::TRANSMISSION_WEIGHT).saturate();
         let normal = fresnel::normal_reflectance(base.bending);
-        let (tint, scale) = (self.spectrum(p::SPECULAR_COLOR), self.get(p::SPECULAR_SCALE));
+        let (tint, scale) = (self.reflectance(p::SPECULAR_COLOR), self.get(p::SPECULAR_SCALE));
         let depth = self.get(p::TRANSMISSION_DEPTH).gt(0.0);
-        let passed = depth.select(self.white(), self.spectrum(p::TRANSMISSION_COLOR).max(0.0));
+        let passed = depth.select(self.white(), self.reflectance(p::TRANSMISSION_COLOR).max(0.0));
         // From inside, the tint of a whole lobe stays off: it colours what comes from above.
         let interface = match self.surface.switches.tint {
             Tint::Normal => {
@@ -84,7 +84,7 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
         let presence = self.get(p::TRANSMISSION_WEIGHT).saturate();
         let eta = base.bending.max(1.0);
         let cos = (1.0 - (1.0 - self.specular_mu * self.specular_mu) / (eta * eta)).max(1e-4).sqrt();
-        let colour = self.spectrum(p::TRANSMISSION_COLOR).saturate().max(1e-6);
+        let colour = self.reflectance(p::TRANSMISSION_COLOR).saturate().max(1e-6);
         let path = cos.recip();
         let through = colour.pow(path);
         let normal = fresnel::normal_reflectance(eta);

@@ -23,7 +23,7 @@ impl LightTable {
     /// Le: radiance sent against `wi`, with shaping, goniogram and texture.
     #[inline(always)]
     pub(super) fn le<L: Lanes>(&self, l: L, light: &Reader<'_, L>, wi: Vec3<L>, uv: [F<L>; 2]) -> Spectrum<L> {
-        let plain = light.colour(field::RADIANCE);
+        let plain = light.radiance(field::RADIANCE);
         if !light.flag(flag::VARIED).any() {
             return plain;
         }
@@ -44,7 +44,7 @@ impl LightTable {
         if dome.any() {
             image = dome.select(self.textures.lookup(l, first, size, uv, true), image);
         }
-        shaped * light.spectrum(image)
+        shaped * Spectrum::reflectance(image)
     }
 
     /// Factor on the radiance towards unit `direction`: shaping, goniogram and opening.

@@ -65,7 +65,7 @@ impl LightTable {
         let light = self.reader(l, l.u(infinite.light));
         if infinite.kind == LightKind::Distant {
             let (inside, density) = distant::density(&light, wi);
-            return (light.colour(field::RADIANCE).keep_if(inside), density.keep_if(inside));
+            return (light.radiance(field::RADIANCE).keep_if(inside), density.keep_if(inside));
         }
         let (mut pdf, place) = self.dome_density(l, infinite, n, wi);
         if let Some(portals) = self.portals_at(l, from) {

@@ -79,8 +79,12 @@ impl LightTable {
             || FacingDisk::density(l, &light, from, wi, hit),
         );
         let (pdf, uv) = density;
-        let valid =
-            mask & pdf.gt(0.0) & pdf.is_finite() & self.faces(&light, from, wi) & light.flag(flag::LIT) & self.sees(l, context.receiver, index);
+        let valid = mask
+            & pdf.gt(0.0)
+            & pdf.is_finite()
+            & self.faces(&light, from, wi)
+            & light.flag(flag::LIT)
+            & self.sees(l, context.receiver, index);
         let probability = self.light_pmf(l, light_cache, context, index);
         let mut pdf = pdf * probability;
         if self.any_alone {

@@ -108,7 +108,7 @@ impl LightTable {
             }
             left = left.and_not(same);
         }
-        sent * self.reader(l, light).spectrum(passed)
+        sent * Spectrum::reflectance(passed)
     }
 }
 

@@ -41,13 +41,7 @@ impl LightTable {
 
     /// Selects a light for each point of a class of receivers and gives its probability: 0 where no light can arrive.
     #[inline(always)]
-    pub fn sample_light<L: Lanes>(
-        &self,
-        l: L,
-        light_cache: Option<&LightCache>,
-        from: &LightSampleContext<L>,
-        u: F<L>,
-    ) -> (U<L>, F<L>) {
+    pub fn sample_light<L: Lanes>(&self, l: L, light_cache: Option<&LightCache>, from: &LightSampleContext<L>, u: F<L>) -> (U<L>, F<L>) {
         match &self.linked {
             None => self.sample_all(l, light_cache, 0, from, u),
             Some(linked) => self.sample_linked(l, linked, light_cache, from, u),

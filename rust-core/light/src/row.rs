@@ -162,16 +162,17 @@ impl<'a, L: Lanes> Reader<'a, L> {
         let [x, y, z] = self.triple(field);
         Vec3::new(x, y, z)
     }
-    /// Door for light: a colour of the light table, of a row or of an image, as light. The second of the four doors; see ARCHITECTURE.md.
+    /// Three values as radiance.
     #[inline(always)]
-    pub(crate) fn spectrum(&self, colour: Rgb<L>) -> Spectrum<L> {
-        Spectrum::from_rgb(colour)
-    }
-    /// Three values as light or as a factor on it.
-    #[inline(always)]
-    pub(crate) fn colour(&self, field: usize) -> Spectrum<L> {
+    pub(crate) fn radiance(&self, field: usize) -> Spectrum<L> {
         let [r, g, b] = self.triple(field);
-        self.spectrum(Rgb::new(r, g, b))
+        Spectrum::radiance(Rgb::new(r, g, b))
+    }
+    /// Three values as a factor on light.
+    #[inline(always)]
+    pub(crate) fn factor(&self, field: usize) -> Spectrum<L> {
+        let [r, g, b] = self.triple(field);
+        Spectrum::reflectance(Rgb::new(r, g, b))
     }
     #[inline(always)]
     pub(crate) fn integer(&self, field: usize) -> U<L> {

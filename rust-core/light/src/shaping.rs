@@ -29,7 +29,7 @@ fn focus<L: Lanes>(l: L, light: &Reader<'_, L>, cosine: F<L>) -> Spectrum<L> {
     let base = cosine.abs();
     // 0 to a positive power is 0 whatever the logarithm of 0 is.
     let power = base.max(f32::MIN_POSITIVE).pow(exponent).keep_if(base.gt(0.0));
-    let tint = light.colour(field::TINT);
+    let tint = light.factor(field::TINT);
     focused.select(tint.lerp(white, power), white)
 }
 

@@ -1,7 +1,8 @@
 //! Light under way, one spectrum per lane: what is carried, scattered or emitted. Stored colour is [`Rgb`].
 //!
-//! No other file knows what a spectrum is made of: today three components, linear Rec.709. Colour becomes light, and light becomes colour,
-//! through [`Spectrum::from_rgb`] and [`Spectrum::to_rgb`]. Only the doors for light call those; ARCHITECTURE.md lists them.
+//! No other file knows what a spectrum is made of: today three components, linear Rec.709. Colour becomes light by three doors, which differ in what the
+//! colour stands for ([`Spectrum::reflectance`], [`Spectrum::coefficient`], [`Spectrum::radiance`]), and light becomes colour by [`Spectrum::to_rgb`].
+//! ARCHITECTURE.md lists who calls them.
 
 mod columns;
 
@@ -19,9 +20,19 @@ pub struct Spectrum<L: Lanes> {
 }
 
 impl<L: Lanes> Spectrum<L> {
-    /// Stored colour as light. For the doors alone.
+    /// Door for light: what a surface does to it, a share for each wavelength (pbrt's `RGBAlbedoSpectrum`).
     #[inline(always)]
-    pub fn from_rgb(colour: Rgb<L>) -> Self {
+    pub fn reflectance(colour: Rgb<L>) -> Self {
+        Self { r: colour.r, g: colour.g, b: colour.b }
+    }
+    /// Door for light: an index, a length, absorption a metre; any number for each wavelength (pbrt's `RGBUnboundedSpectrum`).
+    #[inline(always)]
+    pub fn coefficient(colour: Rgb<L>) -> Self {
+        Self { r: colour.r, g: colour.g, b: colour.b }
+    }
+    /// Door for light: what something sends, radiance or flux (pbrt's `RGBIlluminantSpectrum`).
+    #[inline(always)]
+    pub fn radiance(colour: Rgb<L>) -> Self {
         Self { r: colour.r, g: colour.g, b: colour.b }
     }
     /// Light as colour to be stored. For the door to film alone.

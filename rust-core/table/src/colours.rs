@@ -1,7 +1,7 @@
 //! Tables of colours, some cells of which may be unknown.
 
 use super::{Axis, Place};
-use gonio_simd::{F, Lanes, Rgb, Spectrum};
+use gonio_simd::{F, Lanes, Rgb};
 
 /// Weights of known cells that are less than that together are an angle's rounding, not a neighbourhood.
 const LEAST_WEIGHT: f32 = 1e-6;
@@ -73,12 +73,6 @@ impl<const N: usize> Colours<N> {
         let enough = known.gt(LEAST_WEIGHT);
         ((sum * known.max(LEAST_WEIGHT).recip()).keep_if(enough), known.keep_if(enough))
     }
-}
-
-/// Door for light: what a measured table tells, as what it does to light. The third of the four doors; see ARCHITECTURE.md.
-#[inline(always)]
-pub fn spectrum<L: Lanes>(colour: Rgb<L>) -> Spectrum<L> {
-    Spectrum::from_rgb(colour)
 }
 
 /// The number of a cell among those that are not repetitions.

@@ -8,7 +8,7 @@ mod colours;
 mod distribution;
 
 pub use axis::{Axis, Place};
-pub use colours::{Colours, spectrum};
+pub use colours::Colours;
 pub use distribution::Distribution2D;
 
 use gonio_simd::{F, Lanes, U};

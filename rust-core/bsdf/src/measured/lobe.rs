@@ -3,7 +3,6 @@
 use super::MeasuredBsdf;
 use super::angles::through;
 use gonio_simd::{F, Lanes, M, Spectrum, Vec3};
-use gonio_table::spectrum;
 
 /// What was measured, seen from one side or the other.
 #[derive(Clone, Copy, Debug)]
@@ -36,7 +35,7 @@ impl<'s, L: Lanes> MeasuredLobe<'s, L> {
         let mut albedo = Spectrum::zero(l);
         for (side, here) in [self.front, l.m(true).and_not(self.front)].into_iter().enumerate() {
             if here.any() {
-                albedo = here.select(spectrum(self.bsdf.albedos.of_view(l, side, wo)), albedo);
+                albedo = here.select(Spectrum::reflectance(self.bsdf.albedos.of_view(l, side, wo)), albedo);
             }
         }
         albedo
@@ -95,7 +94,7 @@ fn eval_side<L: Lanes>(l: L, bsdf: &MeasuredBsdf, [side, kind]: [usize; 2], wi: 
         #[inline(always)]
         || {
             let (value, pdf) = bsdf.eval_side(l, side, kind == 1, wi, wo);
-            (spectrum(value), pdf)
+            (Spectrum::reflectance(value), pdf)
         },
     )
 }

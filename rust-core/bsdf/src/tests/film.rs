@@ -43,7 +43,7 @@ const CASES: [Case; 3] = [
 
 #[inline(always)]
 fn light<L: Lanes>(l: L, colour: [f32; 3]) -> Spectrum<L> {
-    Spectrum::from_rgb(Rgb::splat(l, colour))
+    Spectrum::reflectance(Rgb::splat(l, colour))
 }
 
 #[inline(always)]

@@ -5,8 +5,8 @@
 //! among all lights by the light tree, less those in the cache. So each light is selected in one way, and its probability is simple.
 //! Classes of receivers that see other lights have cells of their own.
 
-use crate::context::LightSampleContext;
 use super::{Below, LightTree, NONE, Node, below_one, draw};
+use crate::context::LightSampleContext;
 use gonio_simd::{F, Lanes, M, One, U, Vec3};
 
 /// Most lights of a cell.

@@ -12,7 +12,7 @@ impl SpectrumColumns {
     pub fn new(len: usize) -> Self {
         Self([Column::new(len), Column::new(len), Column::new(len)])
     }
-    /// All columns.
+    /// All columns, to be compared number by number.
     pub fn columns(&self) -> &[Column] {
         &self.0
     }
@@ -52,6 +52,10 @@ impl SpectrumColumns {
     pub fn magnitude_of(&self, at: usize) -> f32 {
         self.0.iter().map(|column| column[at].abs()).sum()
     }
+    /// Their mean.
+    pub fn mean_magnitude_of(&self, at: usize) -> f32 {
+        self.magnitude_of(at) / 3.0
+    }
     /// Multiplies one spectrum by one of others.
     pub fn multiply(&mut self, at: usize, factors: &Self, from: usize) {
         self.0.iter_mut().zip(&factors.0).for_each(|(column, factors)| column[at] *= factors[from]);
@@ -59,10 +63,6 @@ impl SpectrumColumns {
     /// Multiplies one spectrum by a number.
     pub fn scale(&mut self, at: usize, factor: f32) {
         self.0.iter_mut().for_each(|column| column[at] *= factor);
-    }
-    /// Multiplies the components of one spectrum by a factor each.
-    pub fn tint(&mut self, at: usize, factors: [f32; 3]) {
-        self.0.iter_mut().zip(factors).for_each(|(column, factor)| column[at] *= factor);
     }
     /// Adds one spectrum of others so many times.
     pub fn add(&mut self, at: usize, others: &Self, from: usize, times: f32) {

@@ -7,7 +7,7 @@ use crate::tables::light_groups::{GroupPasses, UNSEEN};
 use crate::tables::transport::{PathFilter, Transport};
 use crate::words::{code, flag};
 use gonio_light::Arrival;
-use gonio_simd::{Lanes, M, Rgb, Spectrum, U};
+use gonio_simd::{Lanes, M, One, Rgb, Spectrum, U};
 
 /// What stages add to: the sums of the block, and what the light cache learns from.
 #[derive(Debug, Default)]
@@ -126,10 +126,16 @@ impl Deposits {
     }
 }
 
-/// Door for light: light that arrived, or an albedo that a pass shows, as colour of the film. The last of the four doors; see ARCHITECTURE.md.
+/// Door for light: light that arrived, or an albedo that a pass shows, as colour of the film; see ARCHITECTURE.md.
 #[inline(always)]
 pub(crate) fn to_film<L: Lanes>(light: Spectrum<L>) -> Rgb<L> {
     light.to_rgb()
+}
+
+/// The same of one lane, R, G, B.
+pub(crate) fn film_numbers(light: Spectrum<One>) -> [f32; 3] {
+    let Rgb { r, g, b } = to_film(light);
+    [r.0, g.0, b.0]
 }
 
 /// The light pass of light that a path finds: `seen` if the camera sees it, direct after one scattering, indirect after more.

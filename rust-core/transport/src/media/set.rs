@@ -2,7 +2,6 @@
 //!
 //! Media that overlap add up, and nothing scatters in them: their extinction is their absorption, whose sum is all that light takes notice of.
 
-use gonio_bsdf::parameter::spectrum;
 use gonio_simd::{Column, F, Lanes, M, Rgb, Spectrum, SpectrumColumns, U};
 
 /// Lights further away than this are infinitely far.
@@ -40,13 +39,13 @@ impl<L: Lanes> MediaSet<L> {
     #[inline(always)]
     pub(crate) fn at_place(l: L, absorption: [f32; 3]) -> Self {
         let [r, g, b] = absorption.map(|x| l.f(x));
-        Self::absorbing(spectrum(Rgb::new(r, g, b)))
+        Self::absorbing(Spectrum::coefficient(Rgb::new(r, g, b)))
     }
 
     /// The same of some places, whose absorption stands in columns.
     #[inline(always)]
     pub(crate) fn at_places(l: L, [r, g, b]: &[Column; 3], place: U<L>) -> Self {
-        Self::absorbing(spectrum(Rgb::new(l.gather(r, place), l.gather(g, place), l.gather(b, place))))
+        Self::absorbing(Spectrum::coefficient(Rgb::new(l.gather(r, place), l.gather(g, place), l.gather(b, place))))
     }
 
     /// This where the mask is set, else another.

@@ -3,9 +3,9 @@
 use crate::accumulate::shader_passes::shader_program;
 use crate::kernels;
 use crate::schedule::tracer::{Start, Tracer};
-use crate::stage::find::{found_light, intersect};
 use crate::stage::find::sort::list_materials;
 use crate::stage::find::surface::{ChunkRays, ChunkSource};
+use crate::stage::find::{found_light, intersect};
 use crate::stage::light::measure::MeasureContext;
 use crate::stage::light::shadow;
 use crate::stage::shade::catcher;

@@ -2,6 +2,7 @@
 
 use crate::graph::CHUNK;
 use crate::state::chunk::ChunkColumns;
+use crate::state::mix_weights::MixWeights;
 use crate::state::rays::Rays;
 use gonio_accel::TransparentHit;
 use gonio_simd::SpectrumColumns;
@@ -13,8 +14,8 @@ pub(crate) struct GlowScratch {
     pub(crate) ends: Vec<TransparentHit>,
     /// By shadow ray, the reciprocal of the mean radiance that its contribution has.
     pub(crate) inverse_mean: Vec<f32>,
-    /// Weights of a mix over a chunk of ends, three channels a closure.
-    pub(crate) weights: Vec<f32>,
+    /// Weights of a mix at a chunk of ends.
+    pub(crate) weights: MixWeights,
     /// What a chunk of ends emits, over the means.
     pub(crate) emitted: SpectrumColumns,
 }
@@ -30,7 +31,7 @@ impl GlowScratch {
 
 impl Default for GlowScratch {
     fn default() -> Self {
-        Self { ends: Vec::new(), inverse_mean: Vec::new(), weights: Vec::new(), emitted: SpectrumColumns::new(CHUNK) }
+        Self { ends: Vec::new(), inverse_mean: Vec::new(), weights: MixWeights::default(), emitted: SpectrumColumns::new(CHUNK) }
     }
 }
 

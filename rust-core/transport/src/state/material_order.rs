@@ -1,5 +1,6 @@
 //! Hits by material: which material each path met, and the paths in the order of their materials.
 
+use crate::state::mix_weights::MixWeights;
 use std::ops::Range;
 
 /// The paths of a batch by the material that they met.
@@ -13,8 +14,8 @@ pub(crate) struct MaterialOrder {
     pub(crate) ends: Vec<u32>,
     /// Mixes and the paths at them.
     pub(crate) mixed: Vec<(u32, u32)>,
-    /// Weights of a mix over a chunk of hits, three channels a closure.
-    pub(crate) weights: Vec<f32>,
+    /// Weights of a mix at a chunk of hits.
+    pub(crate) weights: MixWeights,
 }
 
 impl MaterialOrder {

@@ -2,6 +2,7 @@
 
 use crate::graph::CHUNK;
 use crate::state::chunk::ChunkColumns;
+use crate::state::mix_weights::MixWeights;
 use crate::state::rays::Rays;
 use gonio_accel::{Hits, TransparentHit};
 use gonio_camera::sampler::CAPACITY;
@@ -23,8 +24,8 @@ pub(crate) struct StartRoom {
     pub(crate) absorption: SpectrumColumns,
     /// Those of a chunk.
     pub(crate) chunk: SpectrumColumns,
-    /// Weights of a mix over a chunk, three channels a closure.
-    pub(crate) weights: Vec<f32>,
+    /// Weights of a mix over a chunk.
+    pub(crate) weights: MixWeights,
     pub(crate) columns: ChunkColumns,
 }
 
@@ -40,7 +41,7 @@ impl Default for StartRoom {
             sides: Vec::new(),
             absorption: SpectrumColumns::new(0),
             chunk: SpectrumColumns::new(CHUNK),
-            weights: Vec::new(),
+            weights: MixWeights::default(),
             columns: ChunkColumns::default(),
         }
     }

@@ -8,6 +8,7 @@ pub(crate) mod glow;
 pub(crate) mod light_paths;
 pub(crate) mod material_order;
 pub(crate) mod media;
+pub(crate) mod mix_weights;
 pub(crate) mod nearest;
 pub(crate) mod passed;
 pub(crate) mod path_core;

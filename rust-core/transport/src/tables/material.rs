@@ -5,7 +5,7 @@ use crate::tables::media::MediumTable;
 use crate::tables::shader_passes::ShaderOutputs;
 use gonio_bsdf::Surface;
 use gonio_bsdf::{ParameterValues, parameter::COUNT};
-use gonio_simd::{F, Lanes};
+use gonio_simd::{F, Lanes, Rgb, Spectrum};
 
 /// One compiled closure: a BSDF whose parameters are constants or outputs of a shading program.
 #[derive(Clone, Debug)]
@@ -40,6 +40,15 @@ pub struct SurfaceMaterial {
     pub pass_index: u32,
     /// Value of its name in cryptomattes.
     pub matte_id: u32,
+}
+
+impl SurfaceMaterial {
+    /// What it emits for light sampling where that is the same everywhere, in every lane.
+    #[inline(always)]
+    pub(crate) fn even_radiance<L: Lanes>(&self, l: L) -> Spectrum<L> {
+        let [r, g, b] = self.even_emission.unwrap_or_default().map(|x| l.f(x));
+        Spectrum::radiance(Rgb::new(r, g, b))
+    }
 }
 
 /// A material that is a weighted sum of closures: each hit takes one of them at random, by its weight; trees of rays shade all.

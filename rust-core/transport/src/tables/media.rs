@@ -1,6 +1,5 @@
 //! The media of a scene, a row each: what fills closed meshes evenly.
 
-use gonio_bsdf::parameter::spectrum;
 use gonio_simd::{Lanes, Rgb, Spectrum};
 
 /// A medium (pbrt's `HomogeneousMedium`).
@@ -33,6 +32,6 @@ impl MediumTable {
     #[inline(always)]
     pub(crate) fn absorption<L: Lanes>(&self, l: L, row: u32) -> Spectrum<L> {
         let [r, g, b] = self.rows[row as usize].absorption.map(|x| l.f(x));
-        spectrum(Rgb::new(r, g, b))
+        Spectrum::coefficient(Rgb::new(r, g, b))
     }
 }

@@ -2,9 +2,10 @@
 
 use crate::kernels;
 use crate::stage::find::surface::{ChunkRays, ChunkSource};
-use crate::stage::shade::closure::{MixChunk, for_mixes, likelihood, weight};
+use crate::stage::shade::closure::{MixChunk, for_mixes, likelihood};
 use crate::state::chunk::ChunkColumns;
 use crate::state::material_order::MaterialOrder;
+use crate::state::mix_weights::ClosureWeights;
 use crate::state::paths::Paths;
 use crate::state::queue::branches::Undivided;
 use crate::tables::Tables;
@@ -83,9 +84,9 @@ fn select_chunk<L: Lanes>(
         let path = l.load_integers(order, at);
         let mut total = l.f(0.0);
         for one in 0..mix.count {
-            total += likelihood(weight(l, &columns.outputs, one, at));
+            total += likelihood(ClosureWeights::computed(&columns.outputs, one).load(l, at));
         }
-        let own = weight(l, &columns.outputs, closure, at);
+        let own = ClosureWeights::computed(&columns.outputs, closure).load(l, at);
         let share = likelihood(own) / total.max(1e-20);
         let (throughput, camera_share) = whole.undivided.carried.gather(l, path);
         let numbers = &path.to_array()[..L::COUNT.min(count - at)];

@@ -115,8 +115,7 @@ fn add_environment<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths
                 sent = brought.select((sent - part).left_of(all), sent);
             }
         }
-        let throughput =
-            if tables.any_volume { throughput * paths.media.gather(l, path).transmittance(l.f(f32::MAX)) } else { throughput };
+        let throughput = if tables.any_volume { throughput * paths.media.gather(l, path).transmittance(l.f(f32::MAX)) } else { throughput };
         let unclamped = sent * throughput;
         let value = transport.limits.clamped(unclamped, flags >> flag::BOUNCE_SHIFT);
         let expressions = transport.passes.expressions.as_deref();
@@ -129,9 +128,7 @@ fn add_environment<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths
             // A limit holds for all of them together.
             let share = value.abs().max_component() / unclamped.abs().max_component().max(f32::MIN_POSITIVE);
             for number in tables.lights.infinite_lights() {
-                let value = kernels::eval_escaped(l, tables, light_cache, &from, &ray, Some(number))
-                    * throughput
-                    * share;
+                let value = kernels::eval_escaped(l, tables, light_cache, &from, &ray, Some(number)) * throughput * share;
                 let part = Contribution { value, source: Source::Light(l.u(number)), ..light };
                 let brought = transport.is_brought(flags, l.u(number), counted);
                 let lit = (counted & value.is_lit()).and_not(brought);

@@ -60,7 +60,7 @@ fn classify<L: Lanes>(l: L, tables: &Tables, nearest: &mut NearestHits) {
 
 /// Takes paths on behind the shapes of lights, which block nothing. With loose lights the hit behind was found before; else it is traced.
 fn pass_through_lights(tables: &Tables, transport: &Transport, paths: &mut Paths, nearest: &mut NearestHits) {
-    let NearestHits { hits, escaped, at_lights, behind_rays, behind } = nearest;
+    let NearestHits { hits, escaped, at_lights, behind_rays, behind, .. } = nearest;
     for path in at_lights.iter() {
         let i = *path as usize;
         // Far enough that the same shape is not met again, near enough that nothing behind it is lost.

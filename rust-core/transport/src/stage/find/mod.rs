@@ -1,5 +1,6 @@
 //! What rays meet, and the surface points there.
 
+pub(crate) mod closures;
 pub(crate) mod corners;
 pub(crate) mod covered;
 pub(crate) mod found_light;

@@ -1,11 +1,11 @@
 //! The ways of light paths in one bounce, each from a scattering to the next surface, or out of the scene.
 
-use crate::accumulate::deposit::to_film;
+use crate::accumulate::deposit::film_numbers;
 use crate::state::light_paths::LightStarts;
 use crate::state::paths::Paths;
 use crate::words::flag;
 use gonio_accel::{Hits, NONE};
-use gonio_simd::{Lanes, One, Rgb};
+use gonio_simd::{Lanes, One};
 
 /// The segments of a batch in one bounce, by their numbers.
 #[derive(Clone, Copy, Debug)]
@@ -62,7 +62,6 @@ impl<'a> Segments<'a> {
         let way = distance - self.paths.rays.passed.distance(One, path).0;
         let left = self.paths.media.gather(One, path).transmittance(One.f(way));
         let flux = self.starts.carried(One, self.paths.track(One, path).slot, self.paths.carried(One, path).throughput);
-        let Rgb { r, g, b } = to_film(flux * left);
-        [r.0, g.0, b.0]
+        film_numbers(flux * left)
     }
 }

@@ -1,23 +1,25 @@
 //! Emission for light sampling of meshes that glow by an image or a pattern: samples carry the mean, here they get what the point emits.
 
+use crate::accumulate::deposit::film_numbers;
 use crate::graph::CHUNK;
 use crate::kernels;
+use crate::stage::find::closures::{ClosureHits, MaterialHits, each_closure};
 use crate::stage::find::sort::for_materials;
-use crate::stage::find::surface::{ChunkRays, ChunkSource};
 use crate::state::chunk::ChunkColumns;
 use crate::state::columns::load3;
 use crate::state::glow::{GlowRoom, GlowScratch};
 use crate::state::light_paths::LightStarts;
+use crate::state::mix_weights::ClosureWeights;
 use crate::state::paths::Paths;
 use crate::state::queue::shadow_rays::ShadowRays;
 use crate::state::queue::shadow_trace::ShadowTrace;
 use crate::state::rays::Rays;
 use crate::tables::Tables;
-use crate::tables::material::{Shading, threshold, values_by};
+use crate::tables::material::{threshold, values_by};
 use crate::tables::transport::Transport;
 use gonio_accel::TransparentHit;
-use gonio_bsdf::parameter::{OPACITY, spectrum};
-use gonio_simd::{Execution, Frame, Lanes, One, PADDING, Rgb, Spectrum, SpectrumColumns, dispatch};
+use gonio_bsdf::parameter::OPACITY;
+use gonio_simd::{Execution, Frame, Lanes, One, PADDING, Spectrum, SpectrumColumns, dispatch};
 
 /// Gives the shadow rays that arrive at such meshes what the points emit, within their limits.
 pub(crate) fn shine(tables: &Tables, transport: &Transport, trace: &mut ShadowTrace, shadows: &mut ShadowRays, columns: &mut ChunkColumns) {
@@ -29,7 +31,8 @@ pub(crate) fn shine(tables: &Tables, transport: &Transport, trace: &mut ShadowTr
     dispatch!(transport.execution, l => find_ends(l, tables, &shadows.rays, &shadows.light, blocked, glow));
     let mut ends = std::mem::take(&mut glow.ends);
     for_materials(tables, &mut ends, |material, chunk| {
-        dispatch!(transport.execution, l => emitted_chunk(l, tables, material, chunk, &shadows.rays, glow, columns));
+        let points = MaterialHits { material, hits: chunk, rays: &shadows.rays };
+        dispatch!(transport.execution, l => emitted_chunk(l, tables, points, glow, columns));
         for (i, end) in chunk.iter().enumerate() {
             shadows.contribution.multiply(end.ray as usize, &glow.emitted, i);
         }
@@ -70,64 +73,40 @@ fn find_ends<L: Lanes>(l: L, tables: &Tables, rays: &Rays, lights: &[u32], block
 
 /// Fills `glow.emitted` with what a chunk of points of one material emits against the rays that meet them, over the means.
 #[inline(always)]
-fn emitted_chunk<L: Lanes>(
-    l: L,
-    tables: &Tables,
-    material: u32,
-    points: &[TransparentHit],
-    rays: &Rays,
-    glow: &mut GlowScratch,
-    columns: &mut ChunkColumns,
-) {
+fn emitted_chunk<L: Lanes>(l: L, tables: &Tables, chunk: MaterialHits<'_>, glow: &mut GlowScratch, columns: &mut ChunkColumns) {
     let GlowScratch { weights, emitted, inverse_mean, .. } = glow;
-    let mut order = [0; CHUNK];
-    order.iter_mut().zip(0..points.len() as u32).for_each(|(place, number)| *place = number);
-    let source = ChunkSource { order: &order, count: points.len(), rays: ChunkRays::Rays(rays) };
     emitted.clear();
-    match tables.materials.shading(material) {
-        Shading::Surface(surface) => add_emitted(l, tables, surface as usize, (points, &source), None, emitted, columns),
-        Shading::Mix(mix) => {
-            let mix = &tables.materials.mixes[mix as usize];
-            let program = mix.glow.as_deref().unwrap_or(&mix.program);
-            kernels::run_program(l, tables, program, points, &source, columns);
-            weights.clear();
-            (0..mix.count * 3).for_each(|column| weights.extend_from_slice(columns.outputs.column(column)));
-            for closure in 0..mix.count {
-                let own = [0, 1, 2].map(|c| &weights[(closure * 3 + c) * CHUNK..(closure * 3 + c + 1) * CHUNK]);
-                add_emitted(l, tables, mix.first as usize + closure, (points, &source), Some(own), emitted, columns);
-            }
-        }
-    }
-    for (i, point) in points.iter().enumerate() {
+    each_closure(
+        l,
+        tables,
+        chunk,
+        |mix| mix.glow.as_deref().unwrap_or(&mix.program),
+        (weights, columns),
+        #[inline(always)]
+        |closure| add_emitted(l, tables, closure, emitted),
+    );
+    for (i, point) in chunk.hits.iter().enumerate() {
         emitted.scale(i, inverse_mean[point.ray as usize]);
     }
 }
 
 /// Adds what a closure emits, times its weights if it is one of several.
 #[inline(always)]
-fn add_emitted<L: Lanes>(
-    l: L,
-    tables: &Tables,
-    surface: usize,
-    (points, source): (&[TransparentHit], &ChunkSource<'_>),
-    weights: Option<[&[f32]; 3]>,
-    sums: &mut SpectrumColumns,
-    columns: &mut ChunkColumns,
-) {
-    let material = &tables.materials.surfaces[surface];
+fn add_emitted<L: Lanes>(l: L, tables: &Tables, mut closure: ClosureHits<'_>, sums: &mut SpectrumColumns) {
+    let material = &tables.materials.surfaces[closure.surface];
     if !material.emissive {
         return;
     }
+    let count = closure.hits.len();
     let Some(program) = &material.glow else {
-        let [r, g, b] = material.even_emission.unwrap_or_default().map(|x| l.f(x));
-        let even = spectrum(Rgb::new(r, g, b));
-        (0..points.len()).step_by(L::COUNT).for_each(|at| sums.store(sums.load(l, at) + weighted(even, weights, at), at));
+        let even = material.even_radiance(l);
+        (0..count).step_by(L::COUNT).for_each(|at| sums.store(sums.load(l, at) + weighted(even, closure.weights, at), at));
         return;
     };
-    kernels::run_program(l, tables, program, points, source, columns);
-    let ChunkColumns { surface, outputs, .. } = columns;
+    closure.run(l, tables, program);
+    let ClosureHits { weights, columns: ChunkColumns { surface, outputs, .. }, .. } = closure;
     let values = values_by(&material.surface, program, outputs);
-    for at in (0..points.len()).step_by(L::COUNT) {
+    for at in (0..count).step_by(L::COUNT) {
         let frame = Frame::from_normal(load3(l, &surface.shading_normal, at));
         let wo = frame.to_local(load3(l, &surface.wo, at));
         let mut emission = kernels::emitted(l, &material.surface, &values, at, wo, l.load(&surface.side, at).gt(0.0));
@@ -140,9 +119,9 @@ fn add_emitted<L: Lanes>(
 
 /// Times the weights at some points, where there are any.
 #[inline(always)]
-fn weighted<L: Lanes>(emission: Spectrum<L>, weights: Option<[&[f32]; 3]>, at: usize) -> Spectrum<L> {
+fn weighted<L: Lanes>(emission: Spectrum<L>, weights: Option<ClosureWeights<'_>>, at: usize) -> Spectrum<L> {
     match weights {
-        Some([r, g, b]) => emission * spectrum(Rgb::load(emission.lanes(), [r, g, b], at)).max(0.0),
+        Some(weights) => emission * weights.load(emission.lanes(), at),
         None => emission,
     }
 }
@@ -181,17 +160,26 @@ pub(crate) fn shine_starts(tables: &Tables, execution: Execution, paths: &Paths,
         });
         slots.push((slot, 1.0 / point.mean.to_array()[0]));
     }
-    let mut values = vec![[0.0; 3]; points.len()];
-    emitted(tables, execution, &points, room, &mut values);
-    for ((slot, inverse_mean), value) in slots.into_iter().zip(values) {
-        starts.flux.tint(slot, value.map(|x| x * inverse_mean));
+    let mut values = SpectrumColumns::new(points.len());
+    find_emitted(tables, execution, &points, room, &mut values);
+    for (number, (slot, inverse_mean)) in slots.into_iter().enumerate() {
+        values.scale(number, inverse_mean);
+        starts.flux.multiply(slot, &values, number);
     }
 }
 
 /// What points emit as light sampling sees it, R, G, B; `values` has a place for each point.
 pub fn emitted(tables: &Tables, execution: Execution, points: &[GlowPoint], room: &mut GlowRoom, values: &mut [[f32; 3]]) {
+    let mut emitted = SpectrumColumns::new(points.len());
+    find_emitted(tables, execution, points, room, &mut emitted);
+    values.iter_mut().enumerate().for_each(|(number, value)| *value = film_numbers(emitted.load(One, number)));
+}
+
+/// The same as light.
+fn find_emitted(tables: &Tables, execution: Execution, points: &[GlowPoint], room: &mut GlowRoom, values: &mut SpectrumColumns) {
     let GlowRoom { rays, glow, columns } = room;
-    for (points, values) in points.chunks(CHUNK).zip(values.chunks_mut(CHUNK)) {
+    values.clear();
+    for (first, points) in points.chunks(CHUNK).enumerate() {
         glow.begin(points.len());
         glow.inverse_mean.fill(1.0);
         for (number, point) in points.iter().enumerate() {
@@ -201,10 +189,10 @@ pub fn emitted(tables: &Tables, execution: Execution, points: &[GlowPoint], room
         }
         let mut ends = std::mem::take(&mut glow.ends);
         for_materials(tables, &mut ends, |material, chunk| {
-            dispatch!(execution, l => emitted_chunk(l, tables, material, chunk, rays, glow, columns));
+            let points = MaterialHits { material, hits: chunk, rays };
+            dispatch!(execution, l => emitted_chunk(l, tables, points, glow, columns));
             for (i, end) in chunk.iter().enumerate() {
-                let channels = glow.emitted.columns().iter().map(|column| column[i]);
-                values[end.ray as usize].iter_mut().zip(channels).for_each(|(value, channel)| *value = channel);
+                values.add(first * CHUNK + end.ray as usize, &glow.emitted, i, 1.0);
             }
         });
         glow.ends = ends;

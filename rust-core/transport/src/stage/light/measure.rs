@@ -5,12 +5,12 @@
 use crate::accumulate::deposit::{Contribution, Deposits};
 use crate::kernels;
 use crate::stage::light::merge::{Found, irradiance};
-use crate::stage::light::nee::{Along, gone_straight, send};
+use crate::stage::light::nee::send;
 use crate::state::columns::load3;
 use crate::state::path_core::PathCore;
 use crate::state::paths::{PathLanes, Paths};
 use crate::state::queue::measure_points::MeasurePoints;
-use crate::state::queue::shadow_rays::ShadowRays;
+use crate::state::queue::shadow_rays::{Along, ShadowRays};
 use crate::state::sample::SampleContext;
 use crate::state::vertex::{CONE_PER_ROUGHNESS, Interaction};
 use crate::tables::Tables;

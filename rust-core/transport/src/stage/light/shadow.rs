@@ -5,7 +5,7 @@
 use crate::accumulate::deposit::{Contribution, Deposits};
 use crate::graph::CHUNK;
 use crate::kernels;
-use crate::stage::find::surface::{ChunkRays, ChunkSource};
+use crate::stage::find::closures::{ClosureHits, MaterialHits, each_closure};
 use crate::stage::light::glow;
 use crate::stage::light::linked_shadow;
 use crate::stage::shade::catcher;
@@ -15,11 +15,11 @@ use crate::state::queue::shadow_order::ShadowOrder;
 use crate::state::queue::shadow_rays::ShadowRays;
 use crate::state::queue::shadow_trace::ShadowTrace;
 use crate::tables::Tables;
-use crate::tables::material::{Shading, parameter_values, threshold};
+use crate::tables::material::{parameter_values, threshold};
 use crate::tables::transport::{Limits, Transport};
 use gonio_accel::TransparentHit;
-use gonio_bsdf::parameter::{OPACITY, spectrum};
-use gonio_simd::{Frame, Lanes, Rgb, Spectrum, SpectrumColumns, dispatch};
+use gonio_bsdf::parameter::OPACITY;
+use gonio_simd::{Frame, Lanes, Spectrum, SpectrumColumns, dispatch};
 
 /// Traces the queued shadow rays and adds the contributions of those that arrive.
 pub(crate) fn trace_shadows(
@@ -143,25 +143,17 @@ fn dim_chunk<L: Lanes>(
     columns: &mut ChunkColumns,
 ) {
     let ShadowTrace { weights, factors, .. } = trace;
-    let mut order = [0; CHUNK];
-    for (i, place) in order[..hits.len()].iter_mut().enumerate() {
-        *place = i as u32;
-    }
-    let source = ChunkSource { order: &order, count: hits.len(), rays: ChunkRays::Rays(&shadows.rays) };
     factors.clear();
-    match tables.materials.shading(material) {
-        Shading::Surface(surface) => add_transmittance(l, tables, surface as usize, (hits, &source), None, factors, columns),
-        Shading::Mix(mix) => {
-            let mix = &tables.materials.mixes[mix as usize];
-            kernels::run_program(l, tables, &mix.program, hits, &source, columns);
-            weights.clear();
-            (0..mix.count * 3).for_each(|column| weights.extend_from_slice(columns.outputs.column(column)));
-            for closure in 0..mix.count {
-                let own = [0, 1, 2].map(|c| &weights[(closure * 3 + c) * CHUNK..(closure * 3 + c + 1) * CHUNK]);
-                add_transmittance(l, tables, mix.first as usize + closure, (hits, &source), Some(own), factors, columns);
-            }
-        }
-    }
+    let chunk = MaterialHits { material, hits, rays: &shadows.rays };
+    each_closure(
+        l,
+        tables,
+        chunk,
+        |mix| &mix.program,
+        (weights, columns),
+        #[inline(always)]
+        |closure| add_transmittance(l, tables, closure, factors),
+    );
     for (i, hit) in hits.iter().enumerate() {
         shadows.contribution.multiply(hit.ray as usize, factors, i);
     }
@@ -181,21 +173,13 @@ fn attenuate<L: Lanes>(l: L, shadows: &mut ShadowRays, trace: &ShadowTrace) {
 
 /// Adds what a closure lets pass straight, times its weights if it is one of several.
 #[inline(always)]
-fn add_transmittance<L: Lanes>(
-    l: L,
-    tables: &Tables,
-    surface: usize,
-    (hits, source): (&[TransparentHit], &ChunkSource<'_>),
-    weights: Option<[&[f32]; 3]>,
-    sums: &mut SpectrumColumns,
-    columns: &mut ChunkColumns,
-) {
-    let material = &tables.materials.surfaces[surface];
+fn add_transmittance<L: Lanes>(l: L, tables: &Tables, mut closure: ClosureHits<'_>, sums: &mut SpectrumColumns) {
+    let material = &tables.materials.surfaces[closure.surface];
     if !material.lets_light_pass {
         return;
     }
-    kernels::run_program(l, tables, &material.program, hits, source, columns);
-    let ChunkColumns { surface, outputs, .. } = columns;
+    closure.run(l, tables, &material.program);
+    let ClosureHits { weights, hits, columns: ChunkColumns { surface, outputs, .. }, .. } = closure;
     let values = parameter_values(material, outputs);
     for at in (0..hits.len()).step_by(L::COUNT) {
         let frame = Frame::from_normal(load3(l, &surface.shading_normal, at));
@@ -206,8 +190,8 @@ fn add_transmittance<L: Lanes>(
         } else {
             kernels::transmittance(l, &material.surface, &values, at, wo, entering)
         };
-        if let Some([r, g, b]) = weights {
-            factor = factor * spectrum(Rgb::load(l, [r, g, b], at)).max(0.0);
+        if let Some(weights) = weights {
+            factor = factor * weights.load(l, at);
         }
         sums.store(sums.load(l, at) + factor, at);
     }

@@ -5,21 +5,21 @@
 //! where the others' weights leave something, as the surface covers what is behind it by that, too.
 
 use crate::accumulate::deposit::Deposits;
-use crate::graph::{CHUNK, OutputColumns};
+use crate::graph::CHUNK;
 use crate::kernels;
 use crate::stage::find::surface::{ChunkRays, ChunkSource};
 use crate::stage::shade::shading::add_emission_apart;
 use crate::state::chunk::{ChunkColumns, ChunkContext};
 use crate::state::material_order::MaterialOrder;
+use crate::state::mix_weights::MixWeights;
 use crate::state::paths::Paths;
 use crate::state::sample::SampleContext;
 use crate::tables::Tables;
 use crate::tables::material::{Mix, Shading};
 use crate::tables::transport::Transport;
 use gonio_accel::{Hits, NONE};
-use gonio_bsdf::parameter::spectrum;
 use gonio_camera::sampler::dimension;
-use gonio_simd::{F, Lanes, PADDING, Rgb, Spectrum, dispatch};
+use gonio_simd::{F, Lanes, PADDING, Spectrum, dispatch};
 
 /// Chooses closures for all hits on mixes: material numbers become surface numbers. Adds the light of those that do nothing but emit, where light is
 /// gathered.
@@ -90,14 +90,13 @@ fn weigh<L: Lanes>(
     (mix, chunk): (&Mix, &MixChunk),
     paths: &Paths,
     hits: &Hits,
-    weights: &mut Vec<f32>,
+    weights: &mut MixWeights,
     columns: &mut ChunkColumns,
 ) {
     let MixChunk { count, ref order } = *chunk;
     let source = ChunkSource { order, count, rays: ChunkRays::Paths(paths) };
     kernels::run_program(l, tables, &mix.program, hits, &source, columns);
-    weights.clear();
-    (0..mix.count * 3).for_each(|column| weights.extend_from_slice(columns.outputs.column(column)));
+    weights.keep(mix, &columns.outputs);
 }
 
 /// Adds what closures emit that do nothing else.
@@ -109,7 +108,7 @@ fn shine_apart<L: Lanes>(
     (mix, chunk): (&Mix, &MixChunk),
     paths: &Paths,
     hits: &Hits,
-    weights: &[f32],
+    weights: &MixWeights,
     columns: &mut ChunkColumns,
     deposits: &mut Deposits,
 ) {
@@ -120,8 +119,7 @@ fn shine_apart<L: Lanes>(
         if material.emits_apart {
             kernels::run_program(l, tables, &material.program, hits, &source, columns);
             let chunk = ChunkContext { l, tables, transport, sample, shader: None, count, order, paths, hits, columns: &*columns };
-            let own = [0, 1, 2].map(|c| &weights[(closure * 3 + c) * CHUNK..][..CHUNK]);
-            add_emission_apart(&chunk, material, own, deposits);
+            add_emission_apart(&chunk, material, weights.of(closure), deposits);
         }
     }
 }
@@ -133,15 +131,11 @@ fn choose_chunk<L: Lanes>(
     context: &SampleContext<'_>,
     (mix, chunk): (&Mix, &MixChunk),
     paths: &mut Paths,
-    weights: &[f32],
+    weights: &MixWeights,
     material_of: &mut [u32],
 ) {
     let MixChunk { count, ref order } = *chunk;
     let dimension = context.dimension(dimension::CLOSURE);
-    let weight = |closure: usize, at: usize| {
-        let channel = |c: usize| l.load(&weights[(closure * 3 + c) * CHUNK..][..CHUNK], at).max(0.0);
-        spectrum(Rgb::new(channel(0), channel(1), channel(2)))
-    };
     let apart = |closure: usize| tables.materials.surfaces[mix.first as usize + closure].emits_apart;
     for at in (0..count).step_by(L::COUNT) {
         let path = l.load_integers(order, at);
@@ -150,7 +144,7 @@ fn choose_chunk<L: Lanes>(
         let (mut scattering, mut shining) = (l.f(0.0), l.f(0.0));
         for closure in 0..mix.count {
             let sum = if apart(closure) { &mut shining } else { &mut scattering };
-            *sum += likelihood(weight(closure, at));
+            *sum += likelihood(weights.of(closure).load(l, at));
         }
         // White has a weight of 3 channels.
         let left = (3.0 - scattering).max(0.0).min(shining) / shining.max(1e-20);
@@ -159,7 +153,7 @@ fn choose_chunk<L: Lanes>(
         let (mut chosen, mut factor) = (l.u(0), Spectrum::zero(l));
         let mut found = l.m(false);
         for closure in 0..mix.count {
-            let weight = weight(closure, at);
+            let weight = weights.of(closure).load(l, at);
             let own = likelihood(weight) * if apart(closure) { left } else { l.f(1.0) };
             let here = point.lt(own).and_not(found) & own.gt(0.0);
             chosen = here.select(l.u(closure as u32), chosen);
@@ -174,13 +168,6 @@ fn choose_chunk<L: Lanes>(
             material_of[*path as usize] = mix.first + chosen;
         }
     }
-}
-
-/// The weight of a closure, not negative.
-#[inline(always)]
-pub(crate) fn weight<L: Lanes>(l: L, outputs: &OutputColumns, closure: usize, at: usize) -> Spectrum<L> {
-    let channel = |c: usize| l.load(outputs.column(closure * 3 + c), at).max(0.0);
-    spectrum(Rgb::new(channel(0), channel(1), channel(2)))
 }
 
 /// How likely a closure is taken, up to a factor.

@@ -1,6 +1,6 @@
 //! Light paths at a register of points: flux arrives, may be seen by the camera, and is scattered on by the adjoint BSDF.
 
-use crate::accumulate::deposit::{Deposits, code_of_found, to_film};
+use crate::accumulate::deposit::{Deposits, code_of_found, film_numbers, to_film};
 use crate::stage::light::measure::MeasureContext;
 use crate::stage::light::merge::in_share;
 use crate::stage::light::nee::{seen_share, shares_of};
@@ -320,10 +320,7 @@ pub struct Splat {
 impl Splat {
     /// The splats of the connections that nothing blocked.
     pub(crate) fn collect(rays: &ShadowRays, blocked: &[u8], splats: &mut Vec<Self>) {
-        let three = |columns: &SpectrumColumns, at: usize| {
-            let value = to_film(columns.load(One, at));
-            [value.r.0, value.g.0, value.b.0]
-        };
+        let three = |columns: &SpectrumColumns, at: usize| film_numbers(columns.load(One, at));
         splats.extend((0..rays.count).filter(|at| blocked[*at] == 0).map(|at| Self {
             pixel: rays.slot[at],
             light: rays.light[at],

@@ -13,6 +13,7 @@ use crate::stage::shade::first_surface::{add_first_surface, without_holdouts};
 use crate::stage::shade::integrator::Integrator;
 use crate::state::chunk::ChunkContext;
 use crate::state::columns::load3;
+use crate::state::mix_weights::ClosureWeights;
 use crate::state::queue::Queues;
 use crate::state::queue::measure_points::{MeasureLanes, MeasurePoints};
 use crate::state::vertex::{Interaction, Vertex};
@@ -22,11 +23,11 @@ use crate::words::{code, event, flag};
 use gonio_bsdf::{
     Hits, Lobes, ParameterValues, WAY_NUMBERS,
     normals::{Normals, is_raised},
-    parameter::{EMISSION_COLOR, spectrum},
+    parameter::EMISSION_COLOR,
 };
 use gonio_camera::sampler::dimension;
 use gonio_light::hit_weight;
-use gonio_simd::{F, Frame, Lanes, M, Rgb, Spectrum, Vec3};
+use gonio_simd::{F, Frame, Lanes, M, Spectrum, Vec3};
 
 /// Shades a chunk, whose surface columns and parameters are ready.
 #[inline(always)]
@@ -193,7 +194,7 @@ pub(crate) fn guide_and_measure<L: Lanes>(
 pub(crate) fn add_emission_apart<L: Lanes>(
     chunk: &ChunkContext<'_, L>,
     material: &SurfaceMaterial,
-    [r, g, b]: [&[f32]; 3],
+    weights: ClosureWeights<'_>,
     deposits: &mut Deposits,
 ) {
     let ChunkContext { l, tables, count, columns, .. } = *chunk;
@@ -205,8 +206,8 @@ pub(crate) fn add_emission_apart<L: Lanes>(
         }
         let present =
             if tables.geometry.set_holdout.is_empty() { point.alive } else { without_holdouts(chunk, material, &point, point.alive, None) };
-        let weight = spectrum(Rgb::load(l, [r, g, b], at)).max(0.0);
-        add_emission(chunk, &point, values.spectrum(l, EMISSION_COLOR, at) * weight, present, at, deposits);
+        let weight = weights.load(l, at);
+        add_emission(chunk, &point, values.radiance(l, EMISSION_COLOR, at) * weight, present, at, deposits);
     }
 }
 

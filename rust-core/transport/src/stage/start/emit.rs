@@ -6,11 +6,11 @@ use crate::state::paths::{PathLanes, Paths};
 use crate::state::rays::RayLanes;
 use crate::state::sample::SampleContext;
 use crate::tables::Tables;
+use crate::tables::ray_table::RayTable;
 use crate::words::flag;
-use gonio_bsdf::parameter::spectrum;
 use gonio_camera::sampler::{BATCH, dimension};
 use gonio_light::{EmissionSampler, EmittedRay, LightSampleContext};
-use gonio_simd::{Lanes, PADDING, Rgb, U, Vec3};
+use gonio_simd::{Lanes, PADDING, U};
 
 /// Where light paths start.
 #[derive(Clone, Copy, Debug)]
@@ -19,45 +19,6 @@ pub enum Emission<'a> {
     Lights(&'a EmissionSampler),
     /// With the rays of a table, in order; behind its end it begins again.
     Rays(&'a RayTable),
-}
-
-/// Rays that carry flux, each as much as if it were the only one. Rebased world space.
-#[derive(Clone, Debug, Default)]
-pub struct RayTable {
-    /// Where they start.
-    pub origin: [Vec<f32>; 3],
-    /// Unit directions.
-    pub direction: [Vec<f32>; 3],
-    /// Flux, R, G, B.
-    pub flux: [Vec<f32>; 3],
-}
-
-impl RayTable {
-    /// Rays in it.
-    pub fn len(&self) -> usize {
-        self.flux[0].len()
-    }
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-    /// Some of its rays, by their numbers.
-    #[inline(always)]
-    fn rays<L: Lanes>(&self, l: L, number: U<L>) -> EmittedRay<L> {
-        let three = |columns: &[Vec<f32>; 3]| {
-            let [x, y, z] = columns;
-            Vec3::new(l.gather(x, number), l.gather(y, number), l.gather(z, number))
-        };
-        let flux = three(&self.flux);
-        EmittedRay {
-            origin: three(&self.origin),
-            normal: Vec3::splat(l, [0.0; 3]),
-            direction: three(&self.direction),
-            flux: spectrum(Rgb::new(flux.x, flux.y, flux.z)),
-            light: l.u(0),
-            clear: l.f(0.0),
-        }
-    }
 }
 
 /// A ray that leaves a light's surface starts so far off it, over the size of its coordinates: it may not meet the triangle that it leaves.

@@ -4,19 +4,17 @@
 //! enters, as they bend it: so meshes within others count by their product, and a hole, whose surface faces inwards, takes the index away.
 
 use crate::graph::CHUNK;
-use crate::kernels;
+use crate::stage::find::closures::{ClosureHits, MaterialHits, each_closure};
 use crate::stage::find::sort::for_materials;
-use crate::stage::find::surface::{ChunkRays, ChunkSource};
 use crate::stage::start::start_media::cross_all;
 use crate::state::media::StartRoom;
 use crate::state::rays::Rays;
 use crate::tables::Tables;
 use crate::tables::bodies::Body;
-use crate::tables::material::{Shading, parameter_values};
-use gonio_accel::TransparentHit;
+use crate::tables::material::parameter_values;
 use gonio_bsdf::{Hits, Lobes};
 use gonio_camera::sampler::BATCH;
-use gonio_simd::{Execution, Lanes, PADDING, Rgb, Vec3, dispatch};
+use gonio_simd::{Execution, Lanes, PADDING, Vec3, dispatch};
 
 /// Ways from a place, along no axis and no diagonal. Open surfaces hold nothing: a place is in something where all ways say so.
 const DIRECTIONS: [[f32; 3]; 6] = [
@@ -83,7 +81,7 @@ fn along(tables: &Tables, bodies: &[Body], rays: &Rays, count: usize, room: &mut
     let mut crossings = std::mem::take(&mut room.crossings);
     let mut squares = vec![1.0; count];
     for_materials(tables, &mut crossings, |material, chunk| {
-        let behind = dispatch!(execution, l => squared(l, tables, material, chunk, rays, room));
+        let behind = dispatch!(execution, l => squared(l, tables, MaterialHits { material, hits: chunk, rays }, room));
         for (i, crossing) in chunk.iter().enumerate() {
             let square = &mut squares[crossing.ray as usize];
             *square = if room.columns.surface.side[i] < 0.0 { *square * behind[i] } else { *square / behind[i] };
@@ -101,24 +99,18 @@ struct Sums {
 
 /// Squared indices behind the surface at points of a material: of mixes the mean over the closures that let light pass.
 #[inline(always)]
-fn squared<L: Lanes>(l: L, tables: &Tables, material: u32, hits: &[TransparentHit], rays: &Rays, room: &mut StartRoom) -> [f32; CHUNK] {
-    let mut order = [0; CHUNK];
-    order.iter_mut().zip(0..hits.len() as u32).for_each(|(place, number)| *place = number);
-    let source = ChunkSource { order: &order, count: hits.len(), rays: ChunkRays::Rays(rays) };
+fn squared<L: Lanes>(l: L, tables: &Tables, chunk: MaterialHits<'_>, room: &mut StartRoom) -> [f32; CHUNK] {
     let mut sums = Sums { squares: [0.0; CHUNK], weights: [0.0; CHUNK] };
-    match tables.materials.shading(material) {
-        Shading::Surface(surface) => add_square(l, tables, surface as usize, (hits, &source), None, room, &mut sums),
-        Shading::Mix(mix) => {
-            let mix = &tables.materials.mixes[mix as usize];
-            let StartRoom { columns, weights, .. } = room;
-            kernels::run_program(l, tables, &mix.program, hits, &source, columns);
-            weights.clear();
-            (0..mix.count * 3).for_each(|column| weights.extend_from_slice(columns.outputs.column(column)));
-            for closure in 0..mix.count {
-                add_square(l, tables, mix.first as usize + closure, (hits, &source), Some(closure), room, &mut sums);
-            }
-        }
-    }
+    let StartRoom { weights, columns, .. } = room;
+    each_closure(
+        l,
+        tables,
+        chunk,
+        |mix| &mix.program,
+        (weights, columns),
+        #[inline(always)]
+        |closure| add_square(l, tables, closure, &mut sums),
+    );
     let mut squares = sums.squares;
     for (square, weight) in squares.iter_mut().zip(sums.weights) {
         *square = if weight > 0.0 { *square / weight } else { 1.0 };
@@ -128,25 +120,16 @@ fn squared<L: Lanes>(l: L, tables: &Tables, material: u32, hits: &[TransparentHi
 
 /// Adds a surface that lets light pass, as one of a mix's closures or alone.
 #[inline(always)]
-fn add_square<L: Lanes>(
-    l: L,
-    tables: &Tables,
-    surface: usize,
-    (hits, source): (&[TransparentHit], &ChunkSource<'_>),
-    closure: Option<usize>,
-    room: &mut StartRoom,
-    sums: &mut Sums,
-) {
-    let material = &tables.materials.surfaces[surface];
+fn add_square<L: Lanes>(l: L, tables: &Tables, mut closure: ClosureHits<'_>, sums: &mut Sums) {
+    let material = &tables.materials.surfaces[closure.surface];
     let (set, thin_walled) = (&material.surface.lobes, material.surface.switches.thin_walled);
     if !(set.transmission || set.straight) {
         return;
     }
-    let StartRoom { weights, columns, .. } = room;
-    kernels::run_program(l, tables, &material.program, hits, source, columns);
-    let values = parameter_values(material, &columns.outputs);
+    closure.run(l, tables, &material.program);
+    let values = parameter_values(material, &closure.columns.outputs);
     let (wo, mut lobes) = (Vec3::splat(l, [0.0, 0.0, 1.0]), Lobes::empty(l));
-    for at in (0..hits.len()).step_by(L::COUNT) {
+    for at in (0..closure.hits.len()).step_by(L::COUNT) {
         let mut square = l.f(1.0);
         if set.transmission && !thin_walled {
             let seen = Hits { values: &values, at, wo, entering: l.m(true), normals: None, walks: true, numbers: None };
@@ -155,12 +138,10 @@ fn add_square<L: Lanes>(
                 square = eta * eta;
             }
         }
-        let mut weight = l.f(1.0);
-        if let Some(closure) = closure {
-            let own = [0, 1, 2].map(|c| &weights[(closure * 3 + c) * CHUNK..]);
-            let Rgb { r, g, b } = Rgb::load(l, own, at);
-            weight = (r + g + b).max(0.0);
-        }
+        let weight = match closure.weights {
+            Some(weights) => weights.load(l, at).sum(),
+            None => l.f(1.0),
+        };
         (l.load(&sums.squares, at) + square * weight).store(&mut sums.squares, at);
         (l.load(&sums.weights, at) + weight).store(&mut sums.weights, at);
     }

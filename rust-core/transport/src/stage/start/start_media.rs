@@ -2,19 +2,17 @@
 //!
 //! A ray from the place leaves each mesh that holds it once more than it enters it. Cycles fills its stack of volumes in the same way.
 
-use crate::accumulate::deposit::to_film;
-use crate::kernels;
-use crate::stage::find::sort::for_materials;
-use crate::stage::find::surface::{ChunkRays, ChunkSource};
+use crate::accumulate::deposit::film_numbers;
 use crate::media::set::MediaColumns;
+use crate::stage::find::closures::{ClosureHits, MaterialHits, each_closure};
+use crate::stage::find::sort::for_materials;
 use crate::state::media::StartRoom;
 use crate::state::rays::Rays;
 use crate::tables::Tables;
 use crate::tables::bodies::Body;
-use crate::tables::material::{Shading, parameter_values};
+use crate::tables::material::parameter_values;
 use gonio_accel::{NONE, TransparentHit};
-use gonio_bsdf::parameter::spectrum;
-use gonio_simd::{Execution, Lanes, One, PADDING, Rgb, SpectrumColumns, dispatch, padded};
+use gonio_simd::{Execution, Lanes, One, PADDING, SpectrumColumns, dispatch, padded};
 
 /// Along no axis and no diagonal, so that it seldom meets an edge.
 const DIRECTION: [f32; 3] = [0.233_25, 0.317_56, 0.919_11];
@@ -34,8 +32,7 @@ pub fn medium_at(tables: &Tables, place: [f64; 3]) -> [f32; 3] {
     }
     let mut media = MediaColumns::new(PADDING);
     start_media(tables, Execution::Scalar, &tables.bodies.all, &rays, 1, &mut media, &mut StartRoom::default());
-    let Rgb { r, g, b } = to_film(media.load(One, 0).absorption());
-    [r.0, g.0, b.0]
+    film_numbers(media.load(One, 0).absorption())
 }
 
 /// Adds absorption a metre to `media` where the first `count` rays start, which look along their own directions for the bodies that hold them.
@@ -121,7 +118,7 @@ fn look_up(tables: &Tables, execution: Execution, rays: &Rays, room: &mut StartR
     room.absorption = SpectrumColumns::new(padded(crossings.len()) + PADDING);
     room.sides.clear();
     for_materials(tables, &mut crossings, |material, chunk| {
-        dispatch!(execution, l => look_up_chunk(l, tables, material, chunk, rays, room));
+        dispatch!(execution, l => look_up_chunk(l, tables, MaterialHits { material, hits: chunk, rays }, room));
         for i in 0..chunk.len() {
             let at = room.sides.len();
             room.absorption.add(at, &room.chunk, i, 1.0);
@@ -132,54 +129,39 @@ fn look_up(tables: &Tables, execution: Execution, rays: &Rays, room: &mut StartR
 }
 
 #[inline(always)]
-fn look_up_chunk<L: Lanes>(l: L, tables: &Tables, material: u32, hits: &[TransparentHit], rays: &Rays, room: &mut StartRoom) {
-    let mut order = [0; crate::graph::CHUNK];
-    order.iter_mut().zip(0..hits.len() as u32).for_each(|(place, number)| *place = number);
-    let source = ChunkSource { order: &order, count: hits.len(), rays: ChunkRays::Rays(rays) };
-    room.chunk.clear();
-    match tables.materials.shading(material) {
-        Shading::Surface(surface) => add_inside(l, tables, surface as usize, (hits, &source), None, room),
-        Shading::Mix(mix) => {
-            let mix = &tables.materials.mixes[mix as usize];
-            let StartRoom { columns, weights, .. } = room;
-            kernels::run_program(l, tables, &mix.program, hits, &source, columns);
-            weights.clear();
-            (0..mix.count * 3).for_each(|column| weights.extend_from_slice(columns.outputs.column(column)));
-            for closure in 0..mix.count {
-                add_inside(l, tables, mix.first as usize + closure, (hits, &source), Some(closure), room);
-            }
-        }
-    }
-    if let Some(row) = tables.materials.interior(material) {
+fn look_up_chunk<L: Lanes>(l: L, tables: &Tables, chunk: MaterialHits<'_>, room: &mut StartRoom) {
+    let StartRoom { chunk: sums, weights, columns, .. } = room;
+    sums.clear();
+    each_closure(
+        l,
+        tables,
+        chunk,
+        |mix| &mix.program,
+        (weights, columns),
+        #[inline(always)]
+        |closure| add_inside(l, tables, closure, sums),
+    );
+    if let Some(row) = tables.materials.interior(chunk.material) {
         let filling = tables.materials.media.absorption(l, row);
-        (0..hits.len()).step_by(L::COUNT).for_each(|at| room.chunk.store(room.chunk.load(l, at) + filling, at));
+        (0..chunk.hits.len()).step_by(L::COUNT).for_each(|at| sums.store(sums.load(l, at) + filling, at));
     }
 }
 
 /// Adds what a surface encloses, times its weights if it is a closure of several.
 #[inline(always)]
-fn add_inside<L: Lanes>(
-    l: L,
-    tables: &Tables,
-    surface: usize,
-    (hits, source): (&[TransparentHit], &ChunkSource<'_>),
-    closure: Option<usize>,
-    room: &mut StartRoom,
-) {
-    let material = &tables.materials.surfaces[surface];
-    let StartRoom { chunk, weights, columns, .. } = room;
-    kernels::run_program(l, tables, &material.program, hits, source, columns);
+fn add_inside<L: Lanes>(l: L, tables: &Tables, mut closure: ClosureHits<'_>, sums: &mut SpectrumColumns) {
+    let material = &tables.materials.surfaces[closure.surface];
+    closure.run(l, tables, &material.program);
     if material.surface.switches.thin_walled || !material.surface.lobes.transmission {
         return;
     }
-    let values = parameter_values(material, &columns.outputs);
-    for at in (0..hits.len()).step_by(L::COUNT) {
+    let values = parameter_values(material, &closure.columns.outputs);
+    for at in (0..closure.hits.len()).step_by(L::COUNT) {
         let mut inside = material.surface.absorption(l, &values, at);
-        if let Some(closure) = closure {
-            let own = [0, 1, 2].map(|c| &weights[(closure * 3 + c) * crate::graph::CHUNK..]);
-            inside = inside * spectrum(Rgb::load(l, own, at)).max(0.0);
+        if let Some(weights) = closure.weights {
+            inside = inside * weights.load(l, at);
         }
-        chunk.store(chunk.load(l, at) + inside, at);
+        sums.store(sums.load(l, at) + inside, at);
     }
 }
 

@@ -124,7 +124,7 @@ impl ShadowRays {
 
     /// Holds a contribution within its limit.
     pub(crate) fn clamp(&mut self, ray: usize) {
-        let (mean, most) = (self.contribution.magnitude_of(ray) / 3.0, self.ceiling[ray]);
+        let (mean, most) = (self.contribution.mean_magnitude_of(ray), self.ceiling[ray]);
         if mean > most {
             self.contribution.scale(ray, most / mean);
         }

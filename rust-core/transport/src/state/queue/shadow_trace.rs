@@ -3,6 +3,7 @@
 use crate::graph::CHUNK;
 use crate::media::shadow::OpticalDepth;
 use crate::state::glow::GlowScratch;
+use crate::state::mix_weights::MixWeights;
 use crate::state::queue::shadow_order::ShadowOrder;
 use crate::state::queue::shadow_rays::SHADOW_ROOM;
 use crate::state::rays::Rays;
@@ -20,8 +21,8 @@ pub(crate) struct ShadowTrace {
     pub(crate) passed: Vec<TransparentHit>,
     /// By shadow ray, how many such hits it has; used where their number is limited.
     pub(crate) crossed: Vec<u32>,
-    /// Weights of a mix over a chunk of such hits, three channels a closure.
-    pub(crate) weights: Vec<f32>,
+    /// Weights of a mix at a chunk of such hits.
+    pub(crate) weights: MixWeights,
     /// What a chunk of such hits lets pass.
     pub(crate) factors: SpectrumColumns,
     /// What takes light from the rays between surfaces.
@@ -66,7 +67,7 @@ impl Default for ShadowTrace {
             blocked: Vec::new(),
             passed: Vec::new(),
             crossed: Vec::new(),
-            weights: Vec::new(),
+            weights: MixWeights::default(),
             factors: SpectrumColumns::new(CHUNK),
             depth: OpticalDepth::new(SHADOW_ROOM),
             linked: LinkedTrace::default(),
