@@ -27,15 +27,16 @@ impl LightTable {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{LightKind, LightRecord, LightTexture};
+    use crate::{LightKind, LightRecord, LightSampleContext, LightTexture};
     use gonio_simd::One;
 
     /// What a point light of 1 cd with a falloff sends to facing surfaces at a distance, lx.
     fn sent(falloff: Falloff, distance: f32) -> f32 {
         let records = [LightRecord { falloff, ..LightRecord::new(LightKind::Point) }];
         let table = LightTable::build(&records, &[] as &[LightTexture], &[]);
-        let (p, n) = (Vec3::splat(One, [0.0, 0.0, -distance]), Vec3::splat(One, [0.0, 0.0, 1.0]));
-        let sample = table.sample_li(One, None, U(0), &p, &n, One.f(0.5), &[One.f(0.5); 2]);
+        let [position, normal] = [[0.0, 0.0, -distance], [0.0, 0.0, 1.0]].map(|v| Vec3::splat(One, v));
+        let from = LightSampleContext { position, normal, receiver: U(0) };
+        let sample = table.sample_li(One, None, &from, One.f(0.5), &[One.f(0.5); 2]);
         sample.radiance.mean().0 / sample.pdf.0
     }
 

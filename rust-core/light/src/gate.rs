@@ -194,7 +194,7 @@ fn unit<L: Lanes>(x: F<L>) -> M<L> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{LightKind, LightRecord};
+    use crate::{LightKind, LightRecord, LightSampleContext};
     use gonio_simd::One;
 
     const BARN: Slide = Slide::Opening { low: [-0.5; 2], high: [0.5; 2], radius: 0.0, edge: 0.0 };
@@ -212,14 +212,15 @@ mod tests {
         let records = [LightRecord { to_world: axes, ..LightRecord::new(LightKind::Rectangle) }];
         let plain = LightTable::build(&records, &[] as &[LightTexture], &[]);
         let behind = plain.clone().with_filters(&[vec![filter.clone()]], &[1]);
-        let (p, n) = (Vec3::splat(One, [x, 0.0, -2.0]), Vec3::splat(One, [0.0, 0.0, 1.0]));
+        let [position, normal] = [[x, 0.0, -2.0], [0.0, 0.0, 1.0]].map(|v| Vec3::splat(One, v));
+        let from = LightSampleContext { position, normal, receiver: U(0) };
         let sum = |table: &LightTable| -> f64 {
             let places = (0..1600).map(|i| [(i % 40) as f32 * 0.025 + 0.0125, (i / 40) as f32 * 0.025 + 0.0125]);
             let mut others = 0;
             let sent = places.map(|u| {
-                let sample = table.sample_li(One, None, U(0), &p, &n, One.f(0.5), &u.map(|u| One.f(u)));
-                let hit = sample.wi * sample.distance + p;
-                let (met, _) = table.eval_hit(One, None, U(0), U(0), p, n, sample.wi, hit, One.m(true));
+                let sample = table.sample_li(One, None, &from, One.f(0.5), &u.map(|u| One.f(u)));
+                let hit = sample.wi * sample.distance + position;
+                let (met, _) = table.eval_hit(One, None, &from, U(0), [sample.wi, hit], One.m(true));
                 others += u32::from((met.mean().0 - sample.radiance.mean().0).abs() > 1e-4);
                 f64::from(sample.radiance.mean().0 / sample.pdf.0 * sample.wi.z.0)
             });

@@ -25,7 +25,7 @@ pub mod dimension {
     /// First dimension of the first surface.
     pub const FIRST_BOUNCE: u32 = 2;
     /// Dimensions a bounce.
-    pub const BOUNCE: u32 = 8;
+    pub const BOUNCE: u32 = 16;
     /// Point on a light, within a bounce.
     pub const LIGHT: u32 = 0;
     /// Choice of the light, and Russian roulette, within a bounce.
@@ -34,10 +34,14 @@ pub mod dimension {
     pub const BSDF: u32 = 2;
     /// Choice of the lobe, and opacity, within a bounce.
     pub const LOBE: u32 = 3;
-    /// The way inside of a fibre, three pairs, within a bounce: what illuminance is measured by has the same.
+    /// The way inside of a fibre, three pairs, within a bounce.
     pub const FIBRE: u32 = 4;
     /// Choice of the closure, within a bounce.
     pub const CLOSURE: u32 = 7;
-    /// Added for the paths that measure illuminance, and for walks that come out of surfaces.
-    pub const MEASURE: u32 = 4;
+    /// Added to the first three for the paths that measure illuminance.
+    pub const MEASURE: u32 = 8;
+    /// Added to the first three for walks that come out of surfaces.
+    pub const EXIT: u32 = 11;
+    /// Where in the pixel that sees it the light of a light path comes in, within a bounce.
+    pub const SPLAT: u32 = 14;
 }

@@ -218,7 +218,7 @@ fn connect<'s, L: Lanes>(
     let index = context.index(l, point.core.slot);
     let base = context.dimension(0);
     let lens = context.sampler.pair(l, index, base + dimension::LIGHT);
-    let filter = context.sampler.pair(l, index, base + dimension::MEASURE);
+    let filter = context.sampler.pair(l, index, base + dimension::SPLAT);
     let time = chunk.paths.rays.times(l, point.path);
     let seen = picture.camera.importance_at(l, point.at.position, lens, time);
     let (pixel, inside) = picture.pixel(l, seen.raster, filter);

@@ -173,7 +173,7 @@ fn exit_chunk<L: Lanes>(
 ) {
     let WalkContext { tables, transport, sample, paths, lit, .. } = *context;
     let chunk = ChunkContext { l, tables, transport, sample, shader: None, count, order, paths, hits, columns };
-    let base = sample.dimension(dimension::MEASURE);
+    let base = sample.dimension(dimension::EXIT);
     for at in (0..count).step_by(L::COUNT) {
         let point = exit_point(&chunk, at, &queues.walks);
         light_and_scatter(&chunk, &point, base, lit, queues, deposits);
