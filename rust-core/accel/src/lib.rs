@@ -24,7 +24,7 @@ pub use blockers::Blockers;
 pub use cancelled::Cancelled;
 pub use intersect::block_tests::BlockTests;
 pub use intersect::shape::Shape;
-pub use ray::{BEFORE_EDGE, Covered, Hits, NONE, Passed, RayBatch, TransparentHit};
+pub use ray::{BEFORE_EDGE, Covered, Hits, NONE, Passed, RayBatch, RayMask, TransparentHit};
 pub use traverse::beam::{Beam, BeamVisitor};
 pub use tree::blas::{Blas, BlasMemory, Care};
 pub use tree::instance::{Geometry, Instance};

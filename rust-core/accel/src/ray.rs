@@ -3,6 +3,9 @@
 use crate::intersect::prepared::Padded;
 use bytemuck::{Pod, Zeroable};
 
+/// Visibility bits of rays and of instances: a ray sees an instance with which it shares one.
+pub type RayMask = u16;
+
 /// `Hits::instance` and `Hits::primitive` of a ray that hits nothing.
 pub const NONE: u32 = u32::MAX;
 
@@ -21,7 +24,7 @@ pub struct RayBatch<'a> {
     /// Inclusive upper end of the interval; infinity is fine.
     pub t_max: &'a [f32],
     /// An instance is seen when it shares a bit of its visibility mask with this one.
-    pub mask: &'a [u8],
+    pub mask: &'a [RayMask],
     /// Times of the shutter, from 0 to 1. None at all stand for its middle.
     pub time: &'a [f32],
     /// Hits that rays have passed, of which only [`crate::Tlas::first_hit`] knows. None at all where no ray has.

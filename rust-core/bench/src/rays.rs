@@ -1,7 +1,7 @@
 //! Sets of rays, as paths in a scene make them one after the other.
 
 use super::numbers::Random;
-use gonio::accel::{Hits, NONE, RayBatch};
+use gonio::accel::{Hits, NONE, RayBatch, RayMask};
 use gonio::camera::CameraTable;
 use gonio::geometry::{SurfacePoint, shadow_ray_to};
 use gonio::light::LightSampleContext;
@@ -15,7 +15,7 @@ pub(super) struct Rays {
     direction: [Vec<f32>; 3],
     t_min: Vec<f32>,
     t_max: Vec<f32>,
-    mask: Vec<u8>,
+    mask: Vec<RayMask>,
 }
 
 impl Rays {
@@ -23,7 +23,7 @@ impl Rays {
         self.t_max.len()
     }
 
-    fn push(&mut self, origin: Vec3<One>, direction: Vec3<One>, t_max: f32, mask: u8) {
+    fn push(&mut self, origin: Vec3<One>, direction: Vec3<One>, t_max: f32, mask: RayMask) {
         let (o, d) = ([origin.x.0, origin.y.0, origin.z.0], [direction.x.0, direction.y.0, direction.z.0]);
         for axis in 0..3 {
             self.origin[axis].push(o[axis]);

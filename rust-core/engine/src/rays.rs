@@ -1,7 +1,7 @@
 //! Rays that the caller brings, and what each of them meets first. Lights' shapes block nothing, as in pictures.
 
 use crate::{
-    accel::{Hits, NONE, RayBatch},
+    accel::{Hits, NONE, RayBatch, RayMask},
     compile::{CompiledScene, compile},
     error::{Error, Result},
     scene::{Instances, PRIMVARS, Scene},
@@ -47,7 +47,7 @@ struct Rays {
     direction: [Vec<f32>; 3],
     t_min: Vec<f32>,
     t_max: Vec<f32>,
-    mask: Vec<u8>,
+    mask: Vec<RayMask>,
 }
 
 /// Columns of a batch.

@@ -1,7 +1,7 @@
 //! Single rays, packets and the scalar path find the same.
 
 use super::{Geometry, Hits, Instance, Mesh, OwnedRays, Random, Tlas, instance, levels, scene};
-use crate::{NONE, Shape, traverse::stream_tuner::StreamTuners};
+use crate::{NONE, RayMask, Shape, traverse::stream_tuner::StreamTuners};
 use gonio_simd::Execution;
 
 /// A random map: rotation by a quaternion, scale with a mirror now and then, translation.
@@ -32,7 +32,7 @@ fn busy_scene(random: &mut Random, n: usize) -> (Tlas, Vec<Instance>) {
         .map(|i| {
             let geometry = if i % 3 == 0 { Geometry::Shape(shapes[i / 3 % 4]) } else { Geometry::Mesh(i as u32 % 3) };
             let placed = instance(geometry, random_placement(random));
-            Instance { mask: 1 + (i % 2) as u8, transparent: i % 5 == 0, ..placed }
+            Instance { mask: 1 + (i % 2) as RayMask, transparent: i % 5 == 0, ..placed }
         })
         .collect();
     (scene(meshes, &instances), instances)
@@ -45,7 +45,7 @@ fn packets_find_what_single_rays_find() {
     for coherent in [true, false] {
         let mut rays = OwnedRays::random(&mut random, 20_011, 1.0, coherent);
         for (i, mask) in rays.mask.iter_mut().enumerate() {
-            *mask = 1 + (i % 3) as u8;
+            *mask = 1 + (i % 3) as RayMask;
         }
         for level in levels() {
             let single = super::first_hits(&scene, level, &rays);

@@ -2,7 +2,7 @@
 
 use super::agreement::random_placement;
 use super::*;
-use crate::{NONE, Shape};
+use crate::{NONE, RayMask, Shape};
 use gonio_simd::Execution;
 
 const SHAPES: [Shape; 4] = [Shape::Rectangle, Shape::Disk, Shape::Sphere, Shape::Cylinder];
@@ -22,7 +22,7 @@ impl Lit {
         for number in 0..shapes {
             let map = random_placement(&mut random).map(|[x, y, z, moved]| [5.0 * x, 5.0 * y, 5.0 * z, moved]);
             let placed = instance(Geometry::Shape(SHAPES[number % SHAPES.len()]), map);
-            instances.push(Instance { mask: 2 + (number % 3 == 0) as u8, ..placed });
+            instances.push(Instance { mask: 2 + (number % 3 == 0) as RayMask, ..placed });
         }
         let mut rays = OwnedRays::random(&mut random, 2003, 1.0, true);
         rays.mask.iter_mut().enumerate().for_each(|(i, mask)| *mask = if i % 4 == 0 { 1 } else { 3 });

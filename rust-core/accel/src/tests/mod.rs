@@ -14,7 +14,7 @@ mod smooth;
 mod split;
 mod watertight;
 
-use super::{Blas, Care, Geometry, Hits, Instance, Passed, RayBatch, Tlas};
+use super::{Blas, Care, Geometry, Hits, Instance, Passed, RayBatch, RayMask, Tlas};
 use fearless_simd::Level;
 use gonio_simd::Execution;
 use std::sync::Arc;
@@ -45,7 +45,7 @@ struct OwnedRays {
     direction: [Vec<f32>; 3],
     t_min: Vec<f32>,
     t_max: Vec<f32>,
-    mask: Vec<u8>,
+    mask: Vec<RayMask>,
     /// Empty, or a time each.
     time: Vec<f32>,
     /// Empty, or a hit each.

@@ -2,7 +2,7 @@
 
 use super::agreement::random_placement;
 use super::{Geometry, Hits, Instance, Mesh, OwnedRays, Random, Tlas, instance, levels};
-use crate::{Blas, Care, FIRST_PIECE, LAST_PIECE, MovingInstance, NONE, Seen, Spheres};
+use crate::{Blas, Care, FIRST_PIECE, LAST_PIECE, MovingInstance, NONE, RayMask, Seen, Spheres};
 use fearless_simd::Level;
 use gonio_simd::Execution;
 use gonio_simd::motion::{Interpolation, Motion};
@@ -17,7 +17,7 @@ fn moving_scene(random: &mut Random, interpolation: Interpolation) -> (Vec<Arc<B
         [(1, 1.0), (40, 0.5), (800, 0.2)].into_iter().map(|(n, size)| Mesh::soup(random, n, 1.0, size).blas()).collect();
     let placements: Vec<Vec<[[f64; 4]; 3]>> = (0..90).map(|i| (0..2 + i % 3).map(|_| random_placement(random)).collect()).collect();
     let place = |(i, keys): (usize, &Vec<[[f64; 4]; 3]>)| Instance {
-        mask: 1 + (i % 2) as u8,
+        mask: 1 + (i % 2) as RayMask,
         transparent: i % 5 == 0,
         ..instance(Geometry::Mesh(i as u32 % 3), keys[0])
     };
@@ -54,7 +54,7 @@ fn all_walks_find_what_stands_there_at_the_rays_time() {
         let mut rays = OwnedRays::random(&mut random, 4096, 1.0, true);
         rays.time = (0..4096).map(|i| TIMES[i % 4]).collect();
         for (i, mask) in rays.mask.iter_mut().enumerate() {
-            *mask = 1 + (i % 3) as u8;
+            *mask = 1 + (i % 3) as RayMask;
         }
         let stands = |time: f32| {
             let mut stand = instances.clone();

@@ -2,6 +2,7 @@
 
 use crate::intersect::smooth::Smooth;
 use crate::intersect::transform::Affine;
+use crate::ray::RayMask;
 use crate::tree::instance::{Geometry, InstanceRecord, MapKind};
 use crate::tree::node::{Bounds, ChildRef, Kind, Node, STACK, WIDTH};
 use crate::tree::tlas::Tlas;
@@ -54,7 +55,7 @@ fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
 
 impl Tlas {
     /// Shows a visitor what lies in a beam and is seen by rays of a mask, and more that lies near it.
-    pub fn look_along(&self, beam: &Beam, mask: u8, visitor: &mut impl BeamVisitor) {
+    pub fn look_along(&self, beam: &Beam, mask: RayMask, visitor: &mut impl BeamVisitor) {
         for light in &self.loose_lights {
             if self.records[light.record as usize].mask & mask != 0 {
                 visitor.other(light.bounds());

@@ -3,7 +3,7 @@
 use super::packet::EMPTY_PACKET_STACK;
 use super::packet_ray::{PACKET, PacketRays};
 use super::packet_scene::{PacketHits, PacketStacks, traverse_scene_packet};
-use crate::ray::{Hits, RayBatch};
+use crate::ray::{Hits, RayBatch, RayMask};
 use crate::tree::node::STACK;
 use crate::tree::tlas::Tlas;
 use fearless_simd::{Level, f32x16, prelude::*};
@@ -41,7 +41,7 @@ impl PacketStacks {
 /// Sixteen rays copied out of a batch; those beyond its end can hit nothing.
 struct Loaded<S: Simd> {
     rays: PacketRays<S>,
-    masks: [u8; PACKET],
+    masks: [RayMask; PACKET],
     times: [f32; PACKET],
     t_max: [f32; PACKET],
     n: usize,

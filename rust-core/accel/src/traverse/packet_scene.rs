@@ -8,7 +8,7 @@ use crate::hit_callback::{Any, HitCallback, Nearest};
 use crate::intersect::line_ray::SmoothHits;
 use crate::intersect::triangle_block::TriangleBlock;
 use crate::intersect::wide::Wide;
-use crate::ray::{Hit, NONE};
+use crate::ray::{Hit, NONE, RayMask};
 use crate::tree::blas::Blas;
 use crate::tree::instance::{Geometry, InstanceRecord, MapKind};
 use crate::tree::moving::MovingRecord;
@@ -70,7 +70,7 @@ pub(crate) fn traverse_scene_packet<S: Simd, const ANY: bool>(
     simd: S,
     scene: &Tlas,
     rays: &PacketRays<S>,
-    (masks, times): (&[u8; PACKET], &[f32; PACKET]),
+    (masks, times): (&[RayMask; PACKET], &[f32; PACKET]),
     stacks: &mut PacketStacks,
     hits: &mut PacketHits,
 ) {
@@ -81,7 +81,7 @@ pub(crate) fn traverse_scene_packet<S: Simd, const ANY: bool>(
 
 struct SceneVisitor<'a, const ANY: bool> {
     scene: &'a Tlas,
-    masks: &'a [u8; PACKET],
+    masks: &'a [RayMask; PACKET],
     times: &'a [f32; PACKET],
     mesh_stack: &'a mut PacketStack,
     single_scene: &'a mut Stack,
@@ -92,7 +92,7 @@ struct SceneVisitor<'a, const ANY: bool> {
 impl<const ANY: bool> SceneVisitor<'_, ANY> {
     /// The lanes whose rays see what has this mask.
     #[inline(always)]
-    fn seeing(&self, mask: u8) -> u32 {
+    fn seeing(&self, mask: RayMask) -> u32 {
         let mut seeing = 0;
         for (lane, own) in self.masks.iter().enumerate() {
             seeing |= u32::from(own & mask != 0) << lane;

@@ -7,7 +7,7 @@ use crate::intersect::line_ray::SmoothHits;
 use crate::intersect::prepared::PreparedRay;
 use crate::intersect::smooth::SmoothLeaf;
 use crate::intersect::triangle_block::{BlockHits, TriangleBlock};
-use crate::ray::{Hit, RayBatch};
+use crate::ray::{Hit, RayBatch, RayMask};
 use crate::tree::blas::Blas;
 use crate::tree::instance::{Geometry, InstanceRecord, MapKind, Owner};
 use crate::tree::node::{ChildRef, Kind, WIDTH};
@@ -62,7 +62,7 @@ pub(crate) fn traverse_scene_from<K: Lanes8, C: HitCallback>(
     stacks: &mut SceneStacks,
     start: ChildRef,
     ray: &PreparedRay,
-    (mask, time): (u8, f32),
+    (mask, time): (RayMask, f32),
     callback: &mut C,
 ) -> bool {
     let mut visitor = SceneVisitor { scene, mask, time, stack: stacks.mesh_stack, callback };
@@ -71,7 +71,7 @@ pub(crate) fn traverse_scene_from<K: Lanes8, C: HitCallback>(
 
 struct SceneVisitor<'a, C: HitCallback> {
     scene: &'a Tlas,
-    mask: u8,
+    mask: RayMask,
     time: f32,
     stack: &'a mut Stack,
     callback: &'a mut C,

@@ -9,7 +9,7 @@ use crate::intersect::prepared::PreparedRay;
 use crate::intersect::smooth::Smooth;
 use crate::intersect::triangle_block::{BlockHits, TriangleBlock};
 use crate::intersect::wide::{Wide, intersect_boxes};
-use crate::ray::{Hit, NONE, RayBatch};
+use crate::ray::{Hit, NONE, RayBatch, RayMask};
 use crate::tree::blas::Blas;
 use crate::tree::instance::{Geometry, InstanceRecord, MapKind};
 use crate::tree::node::{ChildRef, KINDS, Kind, MAX_DEPTH, Node, WIDTH};
@@ -71,7 +71,7 @@ pub(crate) struct StreamRay<'a, C: HitCallback> {
     instance: u32,
     /// Whether that one may let shadow rays pass.
     transparent: bool,
-    mask: u8,
+    mask: RayMask,
     time: f32,
     /// The ray's number in its batch, [`NONE`] without a ray.
     number: u32,

@@ -4,7 +4,7 @@ use crate::hit_callback::HitCallback;
 use crate::intersect::prepared::Padded;
 use crate::intersect::shape::Shape;
 use crate::intersect::transform::Affine;
-use crate::ray::Hit;
+use crate::ray::{Hit, RayMask};
 
 /// What an instance shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,7 +23,7 @@ pub struct Instance {
     /// Rows of the map from object to world space, the last column the translation. Mirrors are fine; a singular map hides the instance.
     pub object_to_world: [[f64; 4]; 3],
     /// A ray sees the instance when its own mask shares a bit with this one.
-    pub mask: u8,
+    pub mask: RayMask,
     /// True when the material may let shadow rays pass.
     pub transparent: bool,
 }
@@ -64,7 +64,7 @@ pub(crate) struct InstanceRecord {
     pub(crate) geometry: PackedGeometry,
     /// The caller's number.
     pub(crate) id: u32,
-    pub(crate) mask: u8,
+    pub(crate) mask: RayMask,
     pub(crate) transparent: bool,
     pub(crate) map: MapKind,
 }
@@ -113,6 +113,6 @@ impl InstanceRecord {
 pub(crate) struct Owner {
     /// The instance's number.
     pub(crate) id: u32,
-    pub(crate) mask: u8,
+    pub(crate) mask: RayMask,
     pub(crate) transparent: bool,
 }

@@ -15,7 +15,7 @@ use super::{
     textures::CompiledTextures,
 };
 use crate::{
-    accel::{Geometry, Instance, Shape},
+    accel::{Geometry, Instance, RayMask, Shape},
     error::{Diagnostic, Result},
     geometry::NONE,
     light::{Falloff, Goniogram, LightKind, LightLinks, LightRecord, LightTable, LightTexture, Shaping, Spot, size_factor},
@@ -321,7 +321,7 @@ fn shape_instance(light: &Light, part: &Part) -> Option<Instance> {
         }
         LightKind::Point | LightKind::Distant | LightKind::Dome | LightKind::Triangle => return None,
     };
-    let seen = |visible: bool, bit: u8| if visible { bit } else { 0 };
+    let seen = |visible: bool, bit: RayMask| if visible { bit } else { 0 };
     let visibility = light.visibility;
     let mask = seen(visibility.camera, ray_mask::CAMERA)
         | seen(visibility.diffuse, ray_mask::DIFFUSE)

@@ -1,8 +1,8 @@
 //! How much of the disc that a photon's light is spread over lies on surfaces. At edges and in corners the rest is nothing: its light would be lost.
 
 use crate::{
-    accel::{Hits, NONE, RayBatch},
-    transport::{Arrivals, OFF_PLANE, Photon, Tables},
+    accel::{Hits, NONE, RayBatch, RayMask},
+    transport::{Arrivals, OFF_PLANE, Photon, Tables, ray_mask},
 };
 use gonio_simd::{Column, Execution, Frame, Lanes, One, Vec3};
 use std::f32::consts::{PI, TAU};
@@ -126,7 +126,7 @@ struct Room {
     direction: [Vec<f32>; 3],
     t_min: Vec<f32>,
     t_max: Vec<f32>,
-    mask: Vec<u8>,
+    mask: Vec<RayMask>,
     hits: Hits,
     met: Vec<u32>,
 }
@@ -146,7 +146,7 @@ impl Room {
         }
         self.t_min.push(0.0);
         self.t_max.push(reach);
-        self.mask.push(u8::MAX);
+        self.mask.push(ray_mask::ALL);
     }
 
     fn rays(&self) -> RayBatch<'_> {

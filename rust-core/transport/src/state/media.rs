@@ -4,6 +4,7 @@ use crate::graph::CHUNK;
 use crate::state::chunk::ChunkColumns;
 use crate::state::mix_weights::MixWeights;
 use crate::state::rays::Rays;
+use crate::words::ray_mask;
 use gonio_accel::{Hits, TransparentHit};
 use gonio_camera::sampler::CAPACITY;
 use gonio_simd::{PADDING, SpectrumColumns, padded};
@@ -34,7 +35,7 @@ impl Default for StartRoom {
         Self {
             pending: Vec::new(),
             from: Vec::new(),
-            rays: Rays::new(padded(CAPACITY) + PADDING, u8::MAX),
+            rays: Rays::new(padded(CAPACITY) + PADDING, ray_mask::ALL),
             instances: Vec::new(),
             hits: Hits::default(),
             crossings: Vec::new(),

@@ -2,7 +2,7 @@
 
 use crate::state::columns::{Columns3, append3, columns3, load3};
 use crate::state::passed::PassedHits;
-use gonio_accel::RayBatch;
+use gonio_accel::{RayBatch, RayMask};
 use gonio_simd::{Column, F, Lanes, M, U, Vec3};
 use std::ops::Range;
 
@@ -40,7 +40,7 @@ pub struct Rays {
     pub(crate) t_min: Column,
     pub(crate) t_max: Column,
     /// Visibility bits, see [`crate::words::ray_mask`].
-    pub(crate) mask: Vec<u8>,
+    pub(crate) mask: Vec<RayMask>,
     /// Times of the shutter; empty where nothing moves.
     pub(crate) time: Vec<f32>,
     /// What they have passed; of paths alone.
@@ -49,7 +49,7 @@ pub struct Rays {
 
 impl Rays {
     /// Room for some rays; they start at once, and have these visibility bits until they get others.
-    pub(crate) fn new(room: usize, mask: u8) -> Self {
+    pub(crate) fn new(room: usize, mask: RayMask) -> Self {
         let (t_min, t_max) = (Column::new(room), Column::new(room));
         Self {
             origin: columns3(room),

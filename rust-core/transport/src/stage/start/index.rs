@@ -12,6 +12,7 @@ use crate::state::rays::Rays;
 use crate::tables::Tables;
 use crate::tables::bodies::Body;
 use crate::tables::material::parameter_values;
+use crate::words::ray_mask;
 use gonio_bsdf::{Hits, Lobes};
 use gonio_camera::sampler::BATCH;
 use gonio_simd::{Execution, Lanes, PADDING, Vec3, dispatch};
@@ -34,7 +35,7 @@ pub fn squared_indices_at(tables: &Tables, places: &[[f32; 3]]) -> Vec<f32> {
     if bodies.is_empty() {
         return vec![1.0; places.len()];
     }
-    let (mut rays, mut room) = (Rays::new(BATCH + PADDING, u8::MAX), StartRoom::default());
+    let (mut rays, mut room) = (Rays::new(BATCH + PADDING, ray_mask::ALL), StartRoom::default());
     let mut found = Vec::with_capacity(places.len());
     for places in places.chunks(BATCH) {
         let ways = DIRECTIONS.map(|direction| {

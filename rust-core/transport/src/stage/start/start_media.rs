@@ -11,6 +11,7 @@ use crate::state::rays::Rays;
 use crate::tables::Tables;
 use crate::tables::bodies::Body;
 use crate::tables::material::parameter_values;
+use crate::words::ray_mask;
 use gonio_accel::{NONE, TransparentHit};
 use gonio_simd::{Execution, Lanes, One, PADDING, SpectrumColumns, dispatch, padded};
 
@@ -25,7 +26,7 @@ pub fn medium_at(tables: &Tables, place: [f64; 3]) -> [f32; 3] {
     if !tables.bodies.all.iter().any(|body| body.may_hold(origin)) {
         return [0.0; 3];
     }
-    let mut rays = Rays::new(PADDING, u8::MAX);
+    let mut rays = Rays::new(PADDING, ray_mask::ALL);
     for axis in 0..3 {
         rays.origin[axis][0] = origin[axis];
         rays.direction[axis][0] = DIRECTION[axis];
@@ -96,7 +97,7 @@ fn cross(tables: &Tables, execution: Execution, instance: u32, rays: &Rays, room
         way.select(rays, pending);
         way.t_min[..count].copy_from_slice(from);
         way.t_max[..count].fill(f32::INFINITY);
-        way.mask[..count].fill(u8::MAX);
+        way.mask[..count].fill(ray_mask::ALL);
         instances.clear();
         instances.resize(count, instance);
         tables.bvh.first_hit_within(execution, &way.batch(0..count), instances, hits);

@@ -7,6 +7,7 @@ use crate::state::times::SlotTimes;
 use crate::tables::Tables;
 use crate::tables::transport::Transport;
 use crate::words::{counts, ray_mask};
+use gonio_accel::RayMask;
 use gonio_camera::sampler::CAPACITY;
 use gonio_simd::{Column, F, Lanes, M, PADDING, Spectrum, SpectrumColumns, U, padded};
 
@@ -85,7 +86,7 @@ impl Default for ShadowRays {
 
 impl ShadowRays {
     /// An empty queue of rays with these visibility bits.
-    pub(crate) fn with_mask(mask: u8) -> Self {
+    pub(crate) fn with_mask(mask: RayMask) -> Self {
         let room = SHADOW_ROOM;
         Self {
             count: 0,
