@@ -25,7 +25,7 @@ pub(super) fn find(scene: &Scene, tables: &mut Tables, of_lamp: &[u32], diagnost
     }
     let first_triangle = tables.light_instances.0;
     let lamps = (0..first_triangle).filter_map(|light| Some((Shining::Light(light), tables.lights.front(light)?)));
-    let glowing = places_that_glow(scene, tables).into_iter().map(|(instance, place)| (Shining::Instance(instance), place));
+    let glowing = places_that_emit(scene, tables).into_iter().map(|(instance, place)| (Shining::Instance(instance), place));
     let (shining, places): (Vec<Shining>, Vec<[f32; 3]>) = lamps.chain(glowing).unzip();
     let squared = squared_indices_at(tables, &places);
     let within: Vec<(Shining, f32)> = shining.into_iter().zip(squared).filter(|(_, squared)| (squared - 1.0).abs() > 0.0).collect();
@@ -45,7 +45,7 @@ pub(super) fn find(scene: &Scene, tables: &mut Tables, of_lamp: &[u32], diagnost
     }
     Arc::make_mut(&mut tables.lights).set_media(of_light);
     if within.iter().any(|(shining, _)| matches!(shining, Shining::Instance(_))) {
-        tables.glow_in_media = of_instance;
+        tables.emission_in_media = of_instance;
     }
     let set = |instance: u32| scene.instances.get(tables.geometry.instances[instance as usize].set as usize).map(|set| &set.origin);
     let lamp = |light: u32| scene.lights.get(of_lamp[light as usize] as usize).map(|light| &light.origin);
@@ -68,7 +68,7 @@ fn message(index: f32, count: usize) -> String {
 }
 
 /// By instance, a place just before a triangle of it that emits.
-fn places_that_glow(scene: &Scene, tables: &Tables) -> BTreeMap<u32, [f32; 3]> {
+fn places_that_emit(scene: &Scene, tables: &Tables) -> BTreeMap<u32, [f32; 3]> {
     let (first_triangle, instances) = &tables.light_instances;
     let mut places = BTreeMap::new();
     for (light, instance) in (*first_triangle..).zip(instances) {
@@ -77,8 +77,8 @@ fn places_that_glow(scene: &Scene, tables: &Tables) -> BTreeMap<u32, [f32; 3]> {
         }
     }
     // Those of which light sampling does not know.
-    let may_glow = |set: &Instances| set.materials.iter().any(|id| id.index() < scene.materials.len() && emits(tables, id.index()));
-    let sets: Vec<bool> = scene.instances.iter().map(may_glow).collect();
+    let may_emit = |set: &Instances| set.materials.iter().any(|id| id.index() < scene.materials.len() && emits(tables, id.index()));
+    let sets: Vec<bool> = scene.instances.iter().map(may_emit).collect();
     for (instance, row) in (0..tables.first_light_instance).zip(&tables.geometry.instances) {
         let unsampled = tables.triangle_lights.get(instance as usize).is_none_or(|first| *first == NONE);
         if let (true, true, Some(mesh)) = (unsampled, sets[row.set as usize], scene.meshes.get(row.mesh as usize)) {

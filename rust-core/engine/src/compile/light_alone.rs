@@ -24,7 +24,7 @@ pub(super) fn report(scene: &Scene, materials: &MaterialTable, lights: &LightTab
     if surfaces.iter().any(|surface| surface.surface.lobes.walk) {
         warn("light that comes out from under surfaces lights others, but is not seen itself");
     }
-    if (0..materials.numbers.len()).any(|material| materials.glows_unknown(material)) {
+    if (0..materials.numbers.len()).any(|material| materials.emits_unknown(material)) {
         warn("surfaces whose emission depends on the bounces before shine, but light nothing");
     }
 }

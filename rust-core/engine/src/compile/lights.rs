@@ -3,7 +3,6 @@
 use super::{
     filters::CompiledFilters,
     geometry::slots_of,
-    glow::{Mean, Probe},
     goniograms::CompiledGoniograms,
     instances::{rebased, rows},
     light_groups::GroupNames,
@@ -12,6 +11,7 @@ use super::{
     numbers::geometry_number,
     openings::{self, Part},
     quantity::{self, FarFields},
+    textured_emission::{Mean, Probe},
     textures::CompiledTextures,
 };
 use crate::{
@@ -369,8 +369,8 @@ fn emissive_triangles(
                 first_light.push(records.len() as u32);
                 let placed = rebased(transform, origin);
                 let scattered = seen_by(&group.visibility);
-                let glow = |triangle: usize| materials.even_emission(geometry.material(number, triangle as u32));
-                let record = |t: usize| LightRecord { scattered, ..triangle_record(mesh, t, &placed, glow(t)) };
+                let emission = |triangle: usize| materials.even_emission(geometry.material(number, triangle as u32));
+                let record = |t: usize| LightRecord { scattered, ..triangle_record(mesh, t, &placed, emission(t)) };
                 let first = records.len();
                 records.extend((0..mesh.triangles.len()).map(record));
                 shade(probe, number, &mut records[first..])?;
@@ -397,14 +397,14 @@ fn shade(probe: &Probe<'_>, instance: u32, records: &mut [LightRecord]) -> Resul
     Ok(())
 }
 
-fn triangle_record(mesh: &Mesh, triangle: usize, placed: &Transform, glow: Option<[f32; 3]>) -> LightRecord {
+fn triangle_record(mesh: &Mesh, triangle: usize, placed: &Transform, emission: Option<[f32; 3]>) -> LightRecord {
     let corners = mesh.triangles[triangle].map(|i| mesh.points.get(i as usize).map_or([0.0; 3], |p| placed.point(p.map(f64::from))));
     let edge = |i: usize| -> [f32; 3] { std::array::from_fn(|k| (corners[i][k] - corners[0][k]) as f32) };
     let (x, y) = (edge(1), edge(2));
     let z = [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]].map(|c| -c);
     LightRecord {
         to_world: [x, y, z, corners[0].map(|c| c as f32)],
-        radiance: glow.unwrap_or_default(),
+        radiance: emission.unwrap_or_default(),
         two_sided: true,
         ..LightRecord::new(LightKind::Triangle)
     }

@@ -92,8 +92,8 @@ fn mix(closures: &[Closure], first: u32, graph: &CompiledGraph, surfaces: &[Surf
     let own = &surfaces[first as usize..];
     let emissive = own.iter().any(|surface| surface.emissive);
     let even_emission = even_emission(closures, own, graph);
-    let known = own.iter().all(|surface| !surface.emissive || surface.even_emission.is_some() || surface.glow.is_some());
-    let glow = if emissive && even_emission.is_none() && known {
+    let known = own.iter().all(|surface| !surface.emissive || surface.even_emission.is_some() || surface.textured_emission.is_some());
+    let textured_emission = if emissive && even_emission.is_none() && known {
         let outputs = closures.iter().map(|closure| graph.sampled.value(closure.weight)).enumerate().map(weight).collect();
         sampled_program(graph, outputs)
     } else {
@@ -106,7 +106,7 @@ fn mix(closures: &[Closure], first: u32, graph: &CompiledGraph, surfaces: &[Surf
         lets_light_pass: own.iter().any(|surface| surface.lets_light_pass),
         emissive,
         even_emission,
-        glow,
+        textured_emission,
         emits_apart: own.iter().any(|surface| surface.emits_apart),
     }
 }
@@ -115,8 +115,8 @@ fn mix(closures: &[Closure], first: u32, graph: &CompiledGraph, surfaces: &[Surf
 fn even_emission(closures: &[Closure], surfaces: &[SurfaceMaterial], graph: &CompiledGraph) -> Option<[f32; 3]> {
     let mut sum = [0.0; 3];
     for (closure, surface) in closures.iter().zip(surfaces).filter(|(_, surface)| surface.emissive) {
-        let (weight, glow) = (constant(&graph.sampled.value(closure.weight), WEIGHT)?, surface.even_emission?);
-        (0..3).for_each(|c| sum[c] += weight[c] * glow[c]);
+        let (weight, emission) = (constant(&graph.sampled.value(closure.weight), WEIGHT)?, surface.even_emission?);
+        (0..3).for_each(|c| sum[c] += weight[c] * emission[c]);
     }
     Some(sum)
 }
@@ -168,13 +168,13 @@ fn surface(
         let normal_alone = Wanted { normal: wanted.normal, smooth_normal: wanted.smooth_normal, uv: wanted.uv, ..Wanted::default() };
         Box::new(Program::new(code, &normal_alone))
     });
-    let (even_emission, glow) = glow(&surface, sampled, graph);
+    let (even_emission, textured_emission) = sampled_emission(&surface, sampled, graph);
     SurfaceMaterial {
         transparent: surface.is_see_through(),
         lets_light_pass: surface.is_see_through() && material.transparent_shadows,
         emissive: lobes.emission,
         even_emission,
-        glow,
+        textured_emission,
         emits_apart: material.closures.len() > 1 && closure.model == Model::Emission && lobes.emission && !lobes.cut_out,
         interior: None,
         anisotropic: lobes.anisotropic,
@@ -190,7 +190,7 @@ fn surface(
 
 /// What a surface emits for light sampling: the same everywhere, or what a program computes of the parameters that vary, given as light sampling
 /// has them.
-fn glow(surface: &Surface, varying: Vec<WantedOutput>, graph: &CompiledGraph) -> (Option<[f32; 3]>, Option<Box<Program>>) {
+fn sampled_emission(surface: &Surface, varying: Vec<WantedOutput>, graph: &CompiledGraph) -> (Option<[f32; 3]>, Option<Box<Program>>) {
     let colour = varying.iter().find(|output| output.offset == parameter::EMISSION_COLOR);
     let plain = || Some([0, 1, 2].map(|c| surface.constants[parameter::EMISSION_COLOR + c]));
     let covered = surface.covers_emission();

@@ -15,7 +15,6 @@ mod expressions;
 mod fill;
 mod filters;
 mod geometry;
-mod glow;
 mod goniograms;
 mod instances;
 mod kept;
@@ -147,7 +146,7 @@ fn lit(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<CompiledLights> {
     let shading = (mem::take(&mut shapes.geometry.table), mem::take(&mut looks.materials), mem::take(&mut looks.textures.table));
-    let probe = glow::Probe::new(shading, shapes.origin, cancel)?;
+    let probe = textured_emission::Probe::new(shading, shapes.origin, cancel)?;
     let lights = lights::compile(scene, &probe, &looks.textures, kept, shapes.origin, diagnostics)?;
     (shapes.geometry.table, looks.materials, looks.textures.table) = probe.into_parts();
     lights.linking.set_masks(&shapes.geometry.table, &mut shapes.geometry.instances);
@@ -173,7 +172,7 @@ fn statistics(scene: &Scene, looks: &Looks, shapes: &Shapes, lights: &CompiledLi
 
 /// Tells what renders will leave out.
 fn report(scene: &Scene, materials: &MaterialTable, lights: &LightTable, diagnostics: &mut Vec<Diagnostic>) {
-    let emits = |number: usize| materials.is_sampled(materials.number(number)) || materials.glows_unknown(number);
+    let emits = |number: usize| materials.is_sampled(materials.number(number)) || materials.emits_unknown(number);
     smooth::report_emission(scene, emits, diagnostics);
     whitted::report(scene, materials, lights, diagnostics);
     light_alone::report(scene, materials, lights, diagnostics);
@@ -205,7 +204,7 @@ fn tables(scene: &Scene, bvh: Tlas, looks: &mut Looks, shapes: &mut Shapes, ligh
         any_absorbing,
         any_volume,
         bodies,
-        glow_in_media: Vec::new(),
+        emission_in_media: Vec::new(),
         origin,
         geometry,
         materials,
@@ -226,3 +225,4 @@ fn instanced_triangles(scene: &Scene) -> u64 {
 
 #[cfg(test)]
 mod tests;
+mod textured_emission;

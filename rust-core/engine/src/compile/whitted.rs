@@ -21,7 +21,7 @@ pub(super) fn report(scene: &Scene, materials: &MaterialTable, lights: &LightTab
     if surfaces.iter().any(|surface| surface.surface.lobes.walk) {
         warn("light does not walk under surfaces; subsurface scattering shows as diffuse".to_owned());
     }
-    if (0..materials.numbers.len()).any(|material| materials.glows_unknown(material)) {
+    if (0..materials.numbers.len()).any(|material| materials.emits_unknown(material)) {
         warn("surfaces whose emission depends on the bounces before shine, but light nothing".to_owned());
     }
     if scene.settings.antialiasing.is_adaptive() {

@@ -7,7 +7,7 @@ use crate::stage::find::found_light::escape;
 use crate::stage::find::intersect::find_surfaces;
 use crate::stage::find::segments::Segments;
 use crate::stage::find::sort::{list_materials, sort_by_material};
-use crate::stage::light::glow::shine_starts;
+use crate::stage::light::textured_emission::emit_from_starts;
 use crate::stage::light::shadow::occlude;
 use crate::stage::shade::closure::choose_closures;
 use crate::stage::shade::forward::{LightIntegrator, Splat, Wanted};
@@ -87,8 +87,8 @@ impl LightTracer<'_> {
             dispatch!(self.transport.execution, l => dim_starts(l, self.tables, starts));
         }
         if self.tables.lights.any_shaded() && from_lights {
-            let room = ws.queues.light_paths.glow.get_or_insert_default();
-            shine_starts(self.tables, self.transport.execution, &ws.paths, &mut ws.queues.light_paths.starts, room);
+            let room = ws.queues.light_paths.emission.get_or_insert_default();
+            emit_from_starts(self.tables, self.transport.execution, &ws.paths, &mut ws.queues.light_paths.starts, room);
         }
         self.find_media(ws);
         ws.paths.set_masks();

@@ -1,7 +1,7 @@
 //! Light paths' own state: the flux that each started with, and what a bounce brings: flux that arrived, escaped or may reach the camera.
 
 use crate::state::columns::{Columns3, append3, columns3};
-use crate::state::glow::GlowRoom;
+use crate::state::textured_emission::EmissionRoom;
 use crate::state::media::StartRoom;
 use crate::state::queue::shadow_rays::ShadowRays;
 use crate::words::{flag, ray_mask};
@@ -77,7 +77,7 @@ pub(crate) struct LightPathQueues {
     pub(crate) escapes: Escapes,
     pub(crate) connections: Connections,
     /// Scratch where programs know what lights emit.
-    pub(crate) glow: Option<Box<GlowRoom>>,
+    pub(crate) emission: Option<Box<EmissionRoom>>,
     /// Scratch where lamps may stand in what absorbs.
     pub(crate) media: Option<Box<StartRoom>>,
 }

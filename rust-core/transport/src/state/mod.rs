@@ -4,7 +4,7 @@
 
 pub(crate) mod chunk;
 pub(crate) mod columns;
-pub(crate) mod glow;
+pub(crate) mod textured_emission;
 pub(crate) mod light_paths;
 pub(crate) mod material_order;
 pub(crate) mod media;

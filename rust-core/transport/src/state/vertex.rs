@@ -104,7 +104,7 @@ pub(crate) struct Vertex<L: Lanes> {
     /// Pdf of the direction that found the vertex, per solid angle; of no meaning for camera rays.
     pub(crate) pdf: F<L>,
     /// Where light paths bring what comes straight from lights.
-    pub(crate) direct_brought: M<L>,
+    pub(crate) direct_left: M<L>,
     /// What the guiding field knows here, where it is followed.
     pub(crate) guided: Option<Guided<L>>,
     /// Share of a camera ray's sample that is here; of no meaning for other rays.
@@ -136,7 +136,7 @@ impl<L: Lanes> Vertex<L> {
             behind: MediaSet::open(l),
             all_delta: l.m(false),
             pdf: l.f(0.0),
-            direct_brought: l.m(false),
+            direct_left: l.m(false),
             guided: None,
             share: l.f(0.0),
         }

@@ -27,7 +27,7 @@ pub struct SurfaceMaterial {
     /// What it emits for light sampling, if that is the same everywhere.
     pub even_emission: Option<[f32; 3]>,
     /// What computes the parameters of its emission for light sampling, if that differs.
-    pub glow: Option<Box<Program>>,
+    pub textured_emission: Option<Box<Program>>,
     /// Whether it is one closure of several and does nothing but emit: its light is added at each hit, whichever closure paths go on with.
     pub emits_apart: bool,
     /// What fills the closed mesh, a row of [`MaterialTable::media`], if anything does.
@@ -69,7 +69,7 @@ pub struct Mix {
     /// Whether any closure emits apart.
     pub emits_apart: bool,
     /// What computes the weights for light sampling, as `program` does, if what is emitted differs.
-    pub glow: Option<Box<Program>>,
+    pub textured_emission: Option<Box<Program>>,
 }
 
 /// What a material number of the geometry stands for.
@@ -158,21 +158,21 @@ impl MaterialTable {
         }
     }
     /// Whether light sampling runs programs to know what a material of the geometry emits.
-    pub fn glows_by_program(&self, number: u32) -> bool {
+    pub fn emits_by_program(&self, number: u32) -> bool {
         match self.shading(number) {
-            Shading::Surface(surface) => self.surfaces[surface as usize].glow.is_some(),
-            Shading::Mix(mix) => self.mixes[mix as usize].glow.is_some(),
+            Shading::Surface(surface) => self.surfaces[surface as usize].textured_emission.is_some(),
+            Shading::Mix(mix) => self.mixes[mix as usize].textured_emission.is_some(),
         }
     }
     /// Whether light sampling knows of what a material of the geometry emits.
     pub fn is_sampled(&self, number: u32) -> bool {
-        self.glows_by_program(number) || self.even_emission(number).is_some()
+        self.emits_by_program(number) || self.even_emission(number).is_some()
     }
     /// Whether a material emits, and light sampling does not know what.
-    pub fn glows_unknown(&self, material: usize) -> bool {
+    pub fn emits_unknown(&self, material: usize) -> bool {
         let number = self.number(material);
         let (emissive, even) = self.emission(number);
-        emissive && even.is_none() && !self.glows_by_program(number)
+        emissive && even.is_none() && !self.emits_by_program(number)
     }
     /// Whether a material of the geometry may emit.
     pub fn emits(&self, number: u32) -> bool {
@@ -181,7 +181,7 @@ impl MaterialTable {
     /// What a material of the geometry emits everywhere alike, if it does so at all.
     pub fn even_emission(&self, number: u32) -> Option<[f32; 3]> {
         let (emissive, even) = self.emission(number);
-        even.filter(|glow| emissive && glow.iter().any(|x| *x != 0.0))
+        even.filter(|emission| emissive && emission.iter().any(|x| *x != 0.0))
     }
     /// Whether a material of the geometry may emit, and what for light sampling, where that is the same everywhere.
     fn emission(&self, number: u32) -> (bool, Option<[f32; 3]>) {

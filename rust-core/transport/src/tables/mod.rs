@@ -68,7 +68,7 @@ pub struct Tables {
     /// Placed meshes that absorb or refract.
     pub bodies: Bodies,
     /// By mesh instance, 1 over the squared index of what its surfaces shine into; empty where none shines into glass or the like.
-    pub glow_in_media: Vec<f32>,
+    pub emission_in_media: Vec<f32>,
     /// World position of the rebased origin, metres.
     pub origin: [f64; 3],
 }

@@ -76,21 +76,21 @@ impl Transport {
         samples.sqrt().recip().max(LEAST_LOOKUP)
     }
 
-    /// Where light that a camera path found is brought by light paths: mirrors or smooth glass sent it on last, and light paths
+    /// Where light that a camera path found is left by light paths: mirrors or smooth glass sent it on last, and light paths
     /// bring what they do to the surface before; or they bring all that comes straight to it. Each path of light so belongs to one technique.
     #[inline(always)]
-    pub(crate) fn is_brought<L: Lanes>(&self, flags: U<L>, light: U<L>, found: M<L>) -> M<L> {
+    pub(crate) fn is_left_to_light_paths<L: Lanes>(&self, flags: U<L>, light: U<L>, found: M<L>) -> M<L> {
         let l = flags.lanes();
-        let Some(brought) = &self.light_paths else { return l.m(false) };
-        let theirs = found & (is_caustic(flags) | (flags & flag::DIRECT_BROUGHT).ne(0));
-        if theirs.any() { theirs & l.gather_integers(brought, light.keep_if(theirs)).ne(0) } else { theirs }
+        let Some(left) = &self.light_paths else { return l.m(false) };
+        let theirs = found & (is_caustic(flags) | (flags & flag::DIRECT_LEFT).ne(0));
+        if theirs.any() { theirs & l.gather_integers(left, light.keep_if(theirs)).ne(0) } else { theirs }
     }
 }
 
 /// Whether mirrors or smooth glass stand between a path's end and the last surface to which light paths bring light.
 #[inline(always)]
 fn is_caustic<L: Lanes>(flags: U<L>) -> M<L> {
-    (flags & (flag::LIGHT_BROUGHT | flag::DELTA)).eq(flag::LIGHT_BROUGHT | flag::DELTA) & !(flags >> flag::BOUNCE_SHIFT).lt(2)
+    (flags & (flag::LEFT_TO_LIGHT_PATHS | flag::DELTA)).eq(flag::LEFT_TO_LIGHT_PATHS | flag::DELTA) & !(flags >> flag::BOUNCE_SHIFT).lt(2)
 }
 
 /// How light is gathered.

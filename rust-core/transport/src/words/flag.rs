@@ -17,7 +17,7 @@ pub(crate) const COVERED: u32 = 128;
 /// The path started at a light.
 pub(crate) const FROM_LIGHT: u32 = 256;
 /// To the last surface that did not scatter specularly light paths bring light: the camera sees it, or photons are taken up there.
-pub(crate) const LIGHT_BROUGHT: u32 = 512;
+pub(crate) const LEFT_TO_LIGHT_PATHS: u32 = 512;
 /// Of vertices, not of paths: light came out here from under the surface.
 pub(crate) const WALKED: u32 = 1024;
 /// The camera sees the path's first surface directly, which did not scatter specularly: light paths can end there.
@@ -27,7 +27,7 @@ pub(crate) const ROUGH: u32 = 4096;
 /// The camera sees the path's next hit through clear glass alone, before which a transparent background stays transparent.
 pub(crate) const CLEAR: u32 = 8192;
 /// Light paths bring what comes straight from lights to the surface that the path left last.
-pub(crate) const DIRECT_BROUGHT: u32 = 16384;
+pub(crate) const DIRECT_LEFT: u32 = 16384;
 /// Above this bit: the state of the automaton of light path expressions, 0 where none are followed.
 pub(crate) const STATE_SHIFT: u32 = 15;
 /// Bits of a state.

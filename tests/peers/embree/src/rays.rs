@@ -10,7 +10,7 @@ pub struct OwnedRays {
     pub direction: [Vec<f32>; 3],
     pub t_min: Vec<f32>,
     pub t_max: Vec<f32>,
-    mask: Vec<u8>,
+    mask: Vec<gonio::accel::RayMask>,
 }
 
 impl OwnedRays {
@@ -21,7 +21,7 @@ impl OwnedRays {
         }
         self.t_min.push(t_min);
         self.t_max.push(t_max);
-        self.mask.push(u8::MAX);
+        self.mask.push(gonio::accel::RayMask::MAX);
     }
 
     pub fn len(&self) -> usize {

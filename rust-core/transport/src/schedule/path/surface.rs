@@ -3,7 +3,7 @@
 use crate::accumulate::deposit::Deposits;
 use crate::stage::light::light_queue::sample_queued;
 use crate::stage::light::measure::{self, MeasureContext};
-use crate::stage::light::merge::{direct_brought, merge};
+use crate::stage::light::merge::{direct_left, merge};
 use crate::stage::light::nee::{queue_shadow_ray, sample_light};
 use crate::stage::shade::guided::{look_up, sampled_by_all, unguided};
 use crate::stage::shade::integrator::Integrator;
@@ -71,7 +71,7 @@ impl Integrator for PathIntegrator {
                     merge(chunk, (map, &photons.bright.caustic), point, lobes, chosen, &mut queues.photons, deposits);
                 }
             }
-            point.direct_brought = direct_brought(chunk, &photons.bright.direct, point, unseen);
+            point.direct_left = direct_left(chunk, &photons.bright.direct, point, unseen);
         }
         look_up(chunk, point, lobes, going_on & non_specular);
         let [u_light, u_roulette] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);

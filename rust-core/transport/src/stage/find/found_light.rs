@@ -70,16 +70,16 @@ fn add_shapes<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths: &Pa
         let value = transport.limits.clamped(radiance * carried.throughput * weight, flags >> flag::BOUNCE_SHIFT);
         let code = with_state(transport.passes.expressions.as_deref(), code_of_found(flags, code::EMISSION), flags);
         let specular = is_specular_path(flags, slot);
-        let brought = transport.is_brought(flags, light, alive);
+        let left = transport.is_left_to_light_paths(flags, light, alive);
         let light = Contribution { slot, value, code, shares: None, specular, source: Source::Light(light) };
-        deposits.deposit(transport, &light, (alive & value.is_lit()).and_not(brought));
+        deposits.deposit(transport, &light, (alive & value.is_lit()).and_not(left));
     }
 }
 
 /// Infinite lights whose caustics light paths bring.
-fn brought_infinite<'a>(tables: &'a Tables, transport: &'a Transport) -> impl Iterator<Item = u32> + 'a {
-    let brought = transport.light_paths.as_deref().unwrap_or_default();
-    tables.lights.infinite_lights().filter(|number| brought.get(*number as usize).is_some_and(|brought| *brought != 0))
+fn infinite_left_to_light_paths<'a>(tables: &'a Tables, transport: &'a Transport) -> impl Iterator<Item = u32> + 'a {
+    let left = transport.light_paths.as_deref().unwrap_or_default();
+    tables.lights.infinite_lights().filter(|number| left.get(*number as usize).is_some_and(|left| *left != 0))
 }
 
 /// Adds the light of infinite lights to paths that escaped, weighted by MIS against next event estimation.
@@ -108,11 +108,11 @@ fn add_environment<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths
         let ray = EscapedRay { direction, pdf, first: camera, delta, kind };
         let all = kernels::eval_escaped(l, tables, light_cache, &from, &ray, None);
         let mut sent = all;
-        for number in brought_infinite(tables, transport) {
-            let brought = transport.is_brought(flags, l.u(number), alive);
-            if brought.any() {
+        for number in infinite_left_to_light_paths(tables, transport) {
+            let left = transport.is_left_to_light_paths(flags, l.u(number), alive);
+            if left.any() {
                 let part = kernels::eval_escaped(l, tables, light_cache, &from, &ray, Some(number));
-                sent = brought.select((sent - part).left_of(all), sent);
+                sent = left.select((sent - part).left_of(all), sent);
             }
         }
         let throughput = if tables.any_volume { throughput * paths.media.gather(l, path).transmittance(l.f(f32::MAX)) } else { throughput };
@@ -130,8 +130,8 @@ fn add_environment<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths
             for number in tables.lights.infinite_lights() {
                 let value = kernels::eval_escaped(l, tables, light_cache, &from, &ray, Some(number)) * throughput * share;
                 let part = Contribution { value, source: Source::Light(l.u(number)), ..light };
-                let brought = transport.is_brought(flags, l.u(number), counted);
-                let lit = (counted & value.is_lit()).and_not(brought);
+                let left = transport.is_left_to_light_paths(flags, l.u(number), counted);
+                let lit = (counted & value.is_lit()).and_not(left);
                 deposits.deposit_to_group(&transport.passes.groups, &part, lit);
                 if let Some(expressions) = told_apart {
                     deposits.deposit_to_expressions(expressions, &part, lit);

@@ -91,8 +91,8 @@ pub(crate) fn light_and_start<L: Lanes>(
             let light = Contribution::sampled(l.u(0), point.core.slot, irradiance * point.core.throughput, l.u(0), None);
             deposits.deposit(transport, &light, point.alive & irradiance.is_lit());
         }
-        let brought = if transport.photons.is_some() { flag::LIGHT_BROUGHT } else { 0 };
-        start(l, &point, context.sampler.pair(l, index, base + dimension::BSDF), brought, next);
+        let left = if transport.photons.is_some() { flag::LEFT_TO_LIGHT_PATHS } else { 0 };
+        start(l, &point, context.sampler.pair(l, index, base + dimension::BSDF), left, next);
     }
 }
 
@@ -139,7 +139,7 @@ fn queue_shadow_ray<L: Lanes>(
 }
 
 #[inline(always)]
-fn start<L: Lanes>(l: L, point: &MeasuredPoint<L>, u: [F<L>; 2], brought: u32, next: &mut Paths) {
+fn start<L: Lanes>(l: L, point: &MeasuredPoint<L>, u: [F<L>; 2], left: u32, next: &mut Paths) {
     let local = cosine_hemisphere(u);
     let direction = point.at.frame.to_world(local).normalize();
     // Light that reaches the shading normal's hemisphere from below the triangle cannot be there.
@@ -147,7 +147,7 @@ fn start<L: Lanes>(l: L, point: &MeasuredPoint<L>, u: [F<L>; 2], brought: u32, n
     let core = PathCore {
         throughput: point.core.throughput * PI,
         spread: l.f(CONE_PER_ROUGHNESS),
-        flags: l.u(flag::NON_SPECULAR_SEEN | flag::ROUGH | brought | (1 << flag::BOUNCE_SHIFT)),
+        flags: l.u(flag::NON_SPECULAR_SEEN | flag::ROUGH | left | (1 << flag::BOUNCE_SHIFT)),
         counts: l.u(counts::DIFFUSE),
         ..point.core
     };

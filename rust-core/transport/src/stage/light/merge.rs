@@ -69,7 +69,7 @@ pub(crate) fn irradiance<L: Lanes>(
 /// Where light paths bring what comes straight from lights, at random by the share that they carry on from there: surfaces that camera paths
 /// meet after they were scattered at the first.
 #[inline(always)]
-pub(crate) fn direct_brought<L: Lanes>(chunk: &ChunkContext<'_, L>, map: &BrightPlaces, point: &Vertex<L>, chosen: M<L>) -> M<L> {
+pub(crate) fn direct_left<L: Lanes>(chunk: &ChunkContext<'_, L>, map: &BrightPlaces, point: &Vertex<L>, chosen: M<L>) -> M<L> {
     let chosen = chosen & (point.core.flags & flag::SEEN_DIRECTLY).ne(0);
     if map.is_empty() || !chosen.any() {
         return chunk.l.m(false);

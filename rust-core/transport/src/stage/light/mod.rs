@@ -1,6 +1,6 @@
 //! Light at a vertex: next event estimation with its shadow rays, and what light paths brought.
 
-pub(crate) mod glow;
+pub(crate) mod textured_emission;
 pub(crate) mod light_queue;
 pub(crate) mod linked_shadow;
 pub(crate) mod measure;

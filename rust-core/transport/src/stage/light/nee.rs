@@ -46,8 +46,8 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
     let ChunkContext { l, tables, transport, .. } = *chunk;
     let usable = present & sample.pdf.gt(0.0) & sample.radiance.is_lit() & catcher::may_sample(l, tables, point.core.slot, sample.light);
     let usable = match &transport.light_paths {
-        Some(brought) if point.direct_brought.any() => {
-            usable.and_not(point.direct_brought & l.gather_integers(brought, sample.light.keep_if(usable)).ne(0))
+        Some(left) if point.direct_left.any() => {
+            usable.and_not(point.direct_left & l.gather_integers(left, sample.light.keep_if(usable)).ne(0))
         }
         _ => usable,
     };

@@ -6,7 +6,7 @@ use crate::accumulate::deposit::{Contribution, Deposits};
 use crate::graph::CHUNK;
 use crate::kernels;
 use crate::stage::find::closures::{ClosureHits, MaterialHits, each_closure};
-use crate::stage::light::glow;
+use crate::stage::light::textured_emission;
 use crate::stage::light::linked_shadow;
 use crate::stage::shade::catcher;
 use crate::state::chunk::ChunkColumns;
@@ -42,7 +42,7 @@ pub(crate) fn trace_shadows(
     } else {
         occlude(tables, transport, coherent, shadows, trace, chunk);
     }
-    glow::shine(tables, transport, trace, shadows, chunk);
+    textured_emission::multiply(tables, transport, trace, shadows, chunk);
     dispatch!(transport.execution, l => add_arrived(l, transport, shadows, &trace.blocked, deposits));
     deposits.note_arrivals(shadows, &trace.blocked);
     shadows.count = 0;

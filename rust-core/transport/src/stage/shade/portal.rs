@@ -34,7 +34,7 @@ pub(crate) fn pass_on<L: Lanes>(
     let ray = ray(chunk, point, portal);
     let receiver = chunk.paths.previous(chunk.l, point.path).receiver;
     // Light paths find no way back through it.
-    let flags = (point.core.flags & !flag::LIGHT_BROUGHT) | (flag::DELTA | flag::ROUGH);
+    let flags = (point.core.flags & !flag::LEFT_TO_LIGHT_PATHS) | (flag::DELTA | flag::ROUGH);
     let core = PathCore { throughput, flags, counts: point.core.counts + counts::STRAIGHT, ..point.core };
     let from = LightSampleContext { position: ray.origin, normal: ray.direction, receiver };
     next.append(&PathLanes::start(ray, core).leaving(from, share), open);

@@ -76,19 +76,19 @@ fn survival<L: Lanes>(chunk: &ChunkContext<'_, L>, throughput: Spectrum<L>, diff
     if from_any { survival } else { diffuse.select(survival, l.f(1.0)) }
 }
 
-/// Flags of what light paths bring, and where the path started: kept by mirrors and smooth glass, else begun anew ([`flag::LIGHT_BROUGHT`]).
+/// Flags of what light paths bring, and where the path started: kept by mirrors and smooth glass, else begun anew ([`flag::LEFT_TO_LIGHT_PATHS`]).
 #[inline(always)]
-fn brought<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, sample: &BsdfSample<L>) -> U<L> {
+fn left_to_light_paths<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, sample: &BsdfSample<L>) -> U<L> {
     let l = chunk.l;
     let first = point.bounces.eq(0) & (point.core.flags & flag::ROUGH).eq(0);
     let here = (point.core.flags & flag::WALKED).eq(0);
-    let rough = l.u(flag::LIGHT_BROUGHT).keep_if((first | l.m(chunk.transport.photons.is_some())) & here);
+    let rough = l.u(flag::LEFT_TO_LIGHT_PATHS).keep_if((first | l.m(chunk.transport.photons.is_some())) & here);
     // Light paths that scatter so are on their way to what the camera sees.
     let ends = first | (point.core.flags & flag::FROM_LIGHT).ne(0);
     let directly = l.u(flag::SEEN_DIRECTLY).keep_if(ends & here.and_not(sample.delta));
     let kept = point.core.flags & (flag::FROM_LIGHT | flag::SEEN_DIRECTLY | flag::ROUGH);
-    let direct = l.u(flag::DIRECT_BROUGHT).keep_if(point.direct_brought.and_not(sample.delta));
-    sample.delta.select(point.core.flags & flag::LIGHT_BROUGHT, rough | flag::ROUGH) | directly | direct | kept
+    let direct = l.u(flag::DIRECT_LEFT).keep_if(point.direct_left.and_not(sample.delta));
+    sample.delta.select(point.core.flags & flag::LEFT_TO_LIGHT_PATHS, rough | flag::ROUGH) | directly | direct | kept
 }
 
 /// The flag of paths that the camera sends through clear glass, where that is to be transparent.
@@ -148,7 +148,7 @@ fn flags<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, sample: &Bsdf
     let delta = sample.delta.select(l.u(flag::DELTA), l.u(0));
     let kind = sample.diffuse.select(l.u(event::DIFFUSE), sample.transmitted.select(l.u(event::TRANSMISSION), l.u(event::GLOSSY)));
     let first = point.bounces.eq(0).select(kind << flag::FIRST_SHIFT, point.core.flags & (3 << flag::FIRST_SHIFT));
-    let kept = brought(chunk, point, sample);
+    let kept = left_to_light_paths(chunk, point, sample);
     let scattered = delta
         | non_specular
         | kept

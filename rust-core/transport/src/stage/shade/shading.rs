@@ -251,8 +251,8 @@ fn add_emission<L: Lanes>(
 ) {
     let ChunkContext { l, tables, transport, .. } = *chunk;
     let mut value = emission * point.core.throughput;
-    if !tables.glow_in_media.is_empty() {
-        value = value * l.gather(&tables.glow_in_media, point.instance);
+    if !tables.emission_in_media.is_empty() {
+        value = value * l.gather(&tables.emission_in_media, point.instance);
     }
     let mut present = present;
     if !tables.links.emitters.is_empty() {
@@ -272,7 +272,7 @@ fn add_emission<L: Lanes>(
         if transport.light_paths.is_some() {
             let lights = present & first.ne(NONE);
             let light = (first + l.load_integers(&chunk.columns.surface.primitive, at)).keep_if(lights);
-            present = present.and_not(transport.is_brought(point.core.flags, light, lights));
+            present = present.and_not(transport.is_left_to_light_paths(point.core.flags, light, lights));
         }
     }
     let value = transport.limits.clamped(value, point.bounces);

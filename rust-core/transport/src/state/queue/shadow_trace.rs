@@ -2,7 +2,7 @@
 
 use crate::graph::CHUNK;
 use crate::media::shadow::OpticalDepth;
-use crate::state::glow::GlowScratch;
+use crate::state::textured_emission::EmissionScratch;
 use crate::state::mix_weights::MixWeights;
 use crate::state::queue::shadow_order::ShadowOrder;
 use crate::state::queue::shadow_rays::SHADOW_ROOM;
@@ -28,7 +28,7 @@ pub(crate) struct ShadowTrace {
     /// What takes light from the rays between surfaces.
     pub(crate) depth: OpticalDepth,
     pub(crate) linked: LinkedTrace,
-    pub(crate) glow: GlowScratch,
+    pub(crate) emission: EmissionScratch,
 }
 
 /// Shadow rays told apart by what blocks them; see `stage/light/linked_shadow.rs`.
@@ -71,7 +71,7 @@ impl Default for ShadowTrace {
             factors: SpectrumColumns::new(CHUNK),
             depth: OpticalDepth::new(SHADOW_ROOM),
             linked: LinkedTrace::default(),
-            glow: GlowScratch::default(),
+            emission: EmissionScratch::default(),
         }
     }
 }

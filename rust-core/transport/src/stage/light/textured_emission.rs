@@ -7,7 +7,7 @@ use crate::stage::find::closures::{ClosureHits, MaterialHits, each_closure};
 use crate::stage::find::sort::for_materials;
 use crate::state::chunk::ChunkColumns;
 use crate::state::columns::load3;
-use crate::state::glow::{GlowRoom, GlowScratch};
+use crate::state::textured_emission::{EmissionRoom, EmissionScratch};
 use crate::state::light_paths::LightStarts;
 use crate::state::mix_weights::ClosureWeights;
 use crate::state::paths::Paths;
@@ -22,30 +22,30 @@ use gonio_bsdf::parameter::OPACITY;
 use gonio_simd::{Execution, Frame, Lanes, One, PADDING, Spectrum, SpectrumColumns, dispatch};
 
 /// Gives the shadow rays that arrive at such meshes what the points emit, within their limits.
-pub(crate) fn shine(tables: &Tables, transport: &Transport, trace: &mut ShadowTrace, shadows: &mut ShadowRays, columns: &mut ChunkColumns) {
+pub(crate) fn multiply(tables: &Tables, transport: &Transport, trace: &mut ShadowTrace, shadows: &mut ShadowRays, columns: &mut ChunkColumns) {
     if !tables.lights.any_shaded() {
         return;
     }
-    let ShadowTrace { blocked, glow, .. } = trace;
-    glow.begin(shadows.count);
-    dispatch!(transport.execution, l => find_ends(l, tables, &shadows.rays, &shadows.light, blocked, glow));
-    let mut ends = std::mem::take(&mut glow.ends);
+    let ShadowTrace { blocked, emission, .. } = trace;
+    emission.begin(shadows.count);
+    dispatch!(transport.execution, l => find_ends(l, tables, &shadows.rays, &shadows.light, blocked, emission));
+    let mut ends = std::mem::take(&mut emission.ends);
     for_materials(tables, &mut ends, |material, chunk| {
         let points = MaterialHits { material, hits: chunk, rays: &shadows.rays };
-        dispatch!(transport.execution, l => emitted_chunk(l, tables, points, glow, columns));
+        dispatch!(transport.execution, l => emitted_chunk(l, tables, points, emission, columns));
         for (i, end) in chunk.iter().enumerate() {
-            shadows.contribution.multiply(end.ray as usize, &glow.emitted, i);
+            shadows.contribution.multiply(end.ray as usize, &emission.emitted, i);
         }
     });
     if transport.limits.clamps_any() {
         ends.iter().for_each(|end| shadows.clamp(end.ray as usize));
     }
-    glow.ends = ends;
+    emission.ends = ends;
 }
 
 /// Lists where rays that nothing blocks end on triangles that programs know, and the reciprocals of their means.
 #[inline(always)]
-fn find_ends<L: Lanes>(l: L, tables: &Tables, rays: &Rays, lights: &[u32], blocked: &[u8], glow: &mut GlowScratch) {
+fn find_ends<L: Lanes>(l: L, tables: &Tables, rays: &Rays, lights: &[u32], blocked: &[u8], scratch: &mut EmissionScratch) {
     let (first, instances) = (tables.light_instances.0, &tables.light_instances.1);
     let count = blocked.len();
     for at in (0..count).step_by(L::COUNT) {
@@ -65,22 +65,22 @@ fn find_ends<L: Lanes>(l: L, tables: &Tables, rays: &Rays, lights: &[u32], block
             let instance = instances[(numbers[lane] - first) as usize];
             let primitive = numbers[lane] - tables.triangle_lights[instance as usize];
             let [u, v, t] = [parts[0][lane], parts[1][lane], parts[2][lane]];
-            glow.ends.push(TransparentHit { ray: (at + lane) as u32, instance, primitive, u, v, t });
-            glow.inverse_mean[at + lane] = 1.0 / parts[3][lane];
+            scratch.ends.push(TransparentHit { ray: (at + lane) as u32, instance, primitive, u, v, t });
+            scratch.inverse_mean[at + lane] = 1.0 / parts[3][lane];
         }
     }
 }
 
-/// Fills `glow.emitted` with what a chunk of points of one material emits against the rays that meet them, over the means.
+/// Fills `scratch.emitted` with what a chunk of points of one material emits against the rays that meet them, over the means.
 #[inline(always)]
-fn emitted_chunk<L: Lanes>(l: L, tables: &Tables, chunk: MaterialHits<'_>, glow: &mut GlowScratch, columns: &mut ChunkColumns) {
-    let GlowScratch { weights, emitted, inverse_mean, .. } = glow;
+fn emitted_chunk<L: Lanes>(l: L, tables: &Tables, chunk: MaterialHits<'_>, scratch: &mut EmissionScratch, columns: &mut ChunkColumns) {
+    let EmissionScratch { weights, emitted, inverse_mean, .. } = scratch;
     emitted.clear();
     each_closure(
         l,
         tables,
         chunk,
-        |mix| mix.glow.as_deref().unwrap_or(&mix.program),
+        |mix| mix.textured_emission.as_deref().unwrap_or(&mix.program),
         (weights, columns),
         #[inline(always)]
         |closure| add_emitted(l, tables, closure, emitted),
@@ -98,7 +98,7 @@ fn add_emitted<L: Lanes>(l: L, tables: &Tables, mut closure: ClosureHits<'_>, su
         return;
     }
     let count = closure.hits.len();
-    let Some(program) = &material.glow else {
+    let Some(program) = &material.textured_emission else {
         let even = material.even_radiance(l);
         (0..count).step_by(L::COUNT).for_each(|at| sums.store(sums.load(l, at) + weighted(even, closure.weights, at), at));
         return;
@@ -128,7 +128,7 @@ fn weighted<L: Lanes>(emission: Spectrum<L>, weights: Option<ClosureWeights<'_>>
 
 /// A point of a mesh, and the unit direction from which it is seen.
 #[derive(Clone, Copy, Debug)]
-pub struct GlowPoint {
+pub struct EmissionPoint {
     /// The instance's number.
     pub instance: u32,
     /// The triangle's number in its mesh.
@@ -140,7 +140,7 @@ pub struct GlowPoint {
 }
 
 /// Gives light paths that start at such meshes what the points emit.
-pub(crate) fn shine_starts(tables: &Tables, execution: Execution, paths: &Paths, starts: &mut LightStarts, room: &mut GlowRoom) {
+pub(crate) fn emit_from_starts(tables: &Tables, execution: Execution, paths: &Paths, starts: &mut LightStarts, room: &mut EmissionRoom) {
     let (l, first) = (One, tables.light_instances.0);
     let (mut points, mut slots) = (Vec::new(), Vec::new());
     for path in 0..paths.count {
@@ -152,7 +152,7 @@ pub(crate) fn shine_starts(tables: &Tables, execution: Execution, paths: &Paths,
         let (origin, direction) = (load3(l, &paths.rays.origin, path), load3(l, &paths.rays.direction, path));
         let point = tables.lights.triangle_point(l, light, origin, direction);
         let instance = tables.light_instances.1[(starts.light[slot] - first) as usize];
-        points.push(GlowPoint {
+        points.push(EmissionPoint {
             instance,
             primitive: starts.light[slot] - tables.triangle_lights[instance as usize],
             barycentric: point.barycentric.map(|x| x.to_array()[0]),
@@ -169,32 +169,32 @@ pub(crate) fn shine_starts(tables: &Tables, execution: Execution, paths: &Paths,
 }
 
 /// What points emit as light sampling sees it, R, G, B; `values` has a place for each point.
-pub fn emitted(tables: &Tables, execution: Execution, points: &[GlowPoint], room: &mut GlowRoom, values: &mut [[f32; 3]]) {
+pub fn emitted(tables: &Tables, execution: Execution, points: &[EmissionPoint], room: &mut EmissionRoom, values: &mut [[f32; 3]]) {
     let mut emitted = SpectrumColumns::new(points.len());
     find_emitted(tables, execution, points, room, &mut emitted);
     values.iter_mut().enumerate().for_each(|(number, value)| *value = film_numbers(emitted.load(One, number)));
 }
 
 /// The same as light.
-fn find_emitted(tables: &Tables, execution: Execution, points: &[GlowPoint], room: &mut GlowRoom, values: &mut SpectrumColumns) {
-    let GlowRoom { rays, glow, columns } = room;
+fn find_emitted(tables: &Tables, execution: Execution, points: &[EmissionPoint], room: &mut EmissionRoom, values: &mut SpectrumColumns) {
+    let EmissionRoom { rays, scratch, columns } = room;
     values.clear();
     for (first, points) in points.chunks(CHUNK).enumerate() {
-        glow.begin(points.len());
-        glow.inverse_mean.fill(1.0);
+        scratch.begin(points.len());
+        scratch.inverse_mean.fill(1.0);
         for (number, point) in points.iter().enumerate() {
             (0..3).for_each(|axis| rays.direction[axis][number] = -point.toward[axis]);
-            let GlowPoint { instance, primitive, barycentric: [u, v], .. } = *point;
-            glow.ends.push(TransparentHit { ray: number as u32, instance, primitive, u, v, t: 1.0 });
+            let EmissionPoint { instance, primitive, barycentric: [u, v], .. } = *point;
+            scratch.ends.push(TransparentHit { ray: number as u32, instance, primitive, u, v, t: 1.0 });
         }
-        let mut ends = std::mem::take(&mut glow.ends);
+        let mut ends = std::mem::take(&mut scratch.ends);
         for_materials(tables, &mut ends, |material, chunk| {
             let points = MaterialHits { material, hits: chunk, rays };
-            dispatch!(execution, l => emitted_chunk(l, tables, points, glow, columns));
+            dispatch!(execution, l => emitted_chunk(l, tables, points, scratch, columns));
             for (i, end) in chunk.iter().enumerate() {
-                values.add(first * CHUNK + end.ray as usize, &glow.emitted, i, 1.0);
+                values.add(first * CHUNK + end.ray as usize, &scratch.emitted, i, 1.0);
             }
         });
-        glow.ends = ends;
+        scratch.ends = ends;
     }
 }

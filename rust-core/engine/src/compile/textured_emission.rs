@@ -7,7 +7,7 @@ use crate::{
     geometry::GeometryTable,
     light::{LightTable, LightTexture},
     texture::TextureTable,
-    transport::{Bodies, GlowPoint, GlowRoom, LightGroups, Links, MaterialTable, MatteNames, Tables, emitted},
+    transport::{Bodies, EmissionPoint, EmissionRoom, LightGroups, Links, MaterialTable, MatteNames, Tables, emitted},
 };
 use gonio_simd::Execution;
 use rayon::prelude::*;
@@ -59,7 +59,7 @@ impl<'a> Probe<'a> {
             any_absorbing: false,
             any_volume: false,
             bodies: Bodies::default(),
-            glow_in_media: Vec::new(),
+            emission_in_media: Vec::new(),
             origin,
         };
         Ok(Self { tables, cancel })
@@ -73,15 +73,15 @@ impl<'a> Probe<'a> {
     /// The means of an instance's triangles, whose normals are given (any length); `None` for those that emit evenly or not at all.
     pub(super) fn means(&self, instance: u32, normals: &[[f32; 3]]) -> Result<Vec<Option<Mean>>> {
         let Tables { geometry, materials, .. } = &self.tables;
-        let asked = |triangle: &u32| materials.glows_by_program(geometry.material(instance, *triangle));
+        let asked = |triangle: &u32| materials.emits_by_program(geometry.material(instance, *triangle));
         let asked: Vec<u32> = (0..normals.len() as u32).filter(asked).collect();
         let points = (MESH_POINTS / asked.len().max(1)).clamp(*POINTS.start(), *POINTS.end());
-        let sides = |room: &mut GlowRoom, triangles: &[u32]| {
+        let sides = |room: &mut EmissionRoom, triangles: &[u32]| {
             check(self.cancel)?;
             Ok(self.sides(instance, triangles, normals, points, room))
         };
         let task = (TASK / (2 * points)).max(1);
-        let found: Vec<Vec<[f32; 2]>> = asked.par_chunks(task).map_init(GlowRoom::default, sides).collect::<Result<_>>()?;
+        let found: Vec<Vec<[f32; 2]>> = asked.par_chunks(task).map_init(EmissionRoom::default, sides).collect::<Result<_>>()?;
         let least = LEAST_SHARE * found.iter().flatten().map(|[front, back]| front + back).sum::<f32>() / asked.len().max(1) as f32;
         let mut means = vec![None; normals.len()];
         for (triangle, [front, back]) in asked.into_iter().zip(found.into_iter().flatten()) {
@@ -92,12 +92,12 @@ impl<'a> Probe<'a> {
     }
 
     /// Mean luminances of both sides of some triangles, first of those that the normals point away from.
-    fn sides(&self, instance: u32, triangles: &[u32], normals: &[[f32; 3]], count: usize, room: &mut GlowRoom) -> Vec<[f32; 2]> {
+    fn sides(&self, instance: u32, triangles: &[u32], normals: &[[f32; 3]], count: usize, room: &mut EmissionRoom) -> Vec<[f32; 2]> {
         let of_side = |triangle: u32, side: f32| {
             let normal = normals[triangle as usize].map(|x| x * side);
             (0..count).map(move |number| point(instance, triangle, normal, number))
         };
-        let points: Vec<GlowPoint> = triangles.iter().flat_map(|t| of_side(*t, 1.0).chain(of_side(*t, -1.0))).collect();
+        let points: Vec<EmissionPoint> = triangles.iter().flat_map(|t| of_side(*t, 1.0).chain(of_side(*t, -1.0))).collect();
         let mut values = vec![[0.0; 3]; points.len()];
         emitted(&self.tables, Execution::detect(), &points, room, &mut values);
         let luminance = |value: &[f32; 3]| crate::colour::luminance(value.map(|x| f64::from(x).abs()));
@@ -107,7 +107,7 @@ impl<'a> Probe<'a> {
 }
 
 /// Points spread evenly over a triangle (Martin Roberts' R sequence in four dimensions), seen from directions over the normal.
-fn point(instance: u32, primitive: u32, normal: [f32; 3], number: usize) -> GlowPoint {
+fn point(instance: u32, primitive: u32, normal: [f32; 3], number: usize) -> EmissionPoint {
     let [a, b, c, d] = [0.856_674_9, 0.733_891_86, 0.628_706_7, 0.538_597_3].map(|step: f32| (0.5 + step * number as f32).fract());
     let barycentric = if a + b > 1.0 { [1.0 - a, 1.0 - b] } else { [a, b] };
     // A point of the unit sphere around the normal's tip lies in a direction by the cosine's law.
@@ -117,5 +117,5 @@ fn point(instance: u32, primitive: u32, normal: [f32; 3], number: usize) -> Glow
     let tip = [across * cosine, across * sine, z];
     let toward: [f32; 3] = std::array::from_fn(|k| normal[k] / length + 0.999 * tip[k]);
     let inverse = 1.0 / toward.iter().map(|x| x * x).sum::<f32>().sqrt();
-    GlowPoint { instance, primitive, barycentric, toward: toward.map(|x| x * inverse) }
+    EmissionPoint { instance, primitive, barycentric, toward: toward.map(|x| x * inverse) }
 }

@@ -1,4 +1,4 @@
-//! Scratch for what meshes emit that glow by an image or a pattern; see `stage/light/glow.rs`.
+//! Scratch for what meshes emit that glow by an image or a pattern; see `stage/light/textured_emission.rs`.
 
 use crate::graph::CHUNK;
 use crate::state::chunk::ChunkColumns;
@@ -9,7 +9,7 @@ use gonio_simd::SpectrumColumns;
 
 /// Ends of shadow rays on meshes whose emission programs know.
 #[derive(Debug)]
-pub(crate) struct GlowScratch {
+pub(crate) struct EmissionScratch {
     /// Where rays end.
     pub(crate) ends: Vec<TransparentHit>,
     /// By shadow ray, the reciprocal of the mean radiance that its contribution has.
@@ -20,7 +20,7 @@ pub(crate) struct GlowScratch {
     pub(crate) emitted: SpectrumColumns,
 }
 
-impl GlowScratch {
+impl EmissionScratch {
     /// Makes room for so many rays.
     pub(crate) fn begin(&mut self, rays: usize) {
         self.ends.clear();
@@ -29,7 +29,7 @@ impl GlowScratch {
     }
 }
 
-impl Default for GlowScratch {
+impl Default for EmissionScratch {
     fn default() -> Self {
         Self { ends: Vec::new(), inverse_mean: Vec::new(), weights: MixWeights::default(), emitted: SpectrumColumns::new(CHUNK) }
     }
@@ -37,14 +37,14 @@ impl Default for GlowScratch {
 
 /// Scratch of [`crate::emitted`].
 #[derive(Debug)]
-pub struct GlowRoom {
+pub struct EmissionRoom {
     pub(crate) rays: Rays,
-    pub(crate) glow: GlowScratch,
+    pub(crate) scratch: EmissionScratch,
     pub(crate) columns: ChunkColumns,
 }
 
-impl Default for GlowRoom {
+impl Default for EmissionRoom {
     fn default() -> Self {
-        Self { rays: Rays::new(CHUNK, 0), glow: GlowScratch::default(), columns: ChunkColumns::default() }
+        Self { rays: Rays::new(CHUNK, 0), scratch: EmissionScratch::default(), columns: ChunkColumns::default() }
     }
 }
