@@ -12,7 +12,7 @@ mod accumulate;
 pub mod geometry;
 pub mod graph;
 pub mod kernels;
-mod media;
+pub mod media;
 mod schedule;
 mod stage;
 mod state;

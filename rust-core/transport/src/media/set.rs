@@ -11,7 +11,7 @@ pub(super) const RESIDUE: f32 = 1e-5;
 
 /// One register of what rays are in.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct MediaSet<L: Lanes> {
+pub struct MediaSet<L: Lanes> {
     /// Extinction a metre, of all of them together.
     extinction: Spectrum<L>,
 }
@@ -19,44 +19,44 @@ pub(crate) struct MediaSet<L: Lanes> {
 impl<L: Lanes> MediaSet<L> {
     /// The open: nothing takes light away.
     #[inline(always)]
-    pub(crate) fn open(l: L) -> Self {
+    pub fn open(l: L) -> Self {
         Self { extinction: Spectrum::zero(l) }
     }
 
     /// What absorbs so much a metre.
     #[inline(always)]
-    pub(crate) fn absorbing(absorption: Spectrum<L>) -> Self {
+    pub fn absorbing(absorption: Spectrum<L>) -> Self {
         Self { extinction: absorption }
     }
 
     /// Absorption a metre of all of them together.
     #[inline(always)]
-    pub(crate) fn absorption(self) -> Spectrum<L> {
+    pub fn absorption(self) -> Spectrum<L> {
         self.extinction
     }
 
     /// What a place is in, as [`crate::medium_at`] tells; in every lane.
     #[inline(always)]
-    pub(crate) fn at_place(l: L, absorption: [f32; 3]) -> Self {
+    pub fn at_place(l: L, absorption: [f32; 3]) -> Self {
         let [r, g, b] = absorption.map(|x| l.f(x));
         Self::absorbing(Spectrum::coefficient(Rgb::new(r, g, b)))
     }
 
     /// The same of some places, whose absorption stands in columns.
     #[inline(always)]
-    pub(crate) fn at_places(l: L, [r, g, b]: &[Column; 3], place: U<L>) -> Self {
+    pub fn at_places(l: L, [r, g, b]: &[Column; 3], place: U<L>) -> Self {
         Self::absorbing(Spectrum::coefficient(Rgb::new(l.gather(r, place), l.gather(g, place), l.gather(b, place))))
     }
 
     /// This where the mask is set, else another.
     #[inline(always)]
-    pub(crate) fn select(self, mask: M<L>, other: Self) -> Self {
+    pub fn select(self, mask: M<L>, other: Self) -> Self {
         Self { extinction: mask.select(self.extinction, other.extinction) }
     }
 
     /// What is behind a surface that encloses so much absorption: volumes add up, solids take the place of what is before them.
     #[inline(always)]
-    pub(crate) fn behind(self, enclosed: Spectrum<L>, entering: M<L>, any_volume: bool) -> Self {
+    pub fn behind(self, enclosed: Spectrum<L>, entering: M<L>, any_volume: bool) -> Self {
         let before = self.extinction;
         let extinction = if any_volume {
             entering.select(before + enclosed, (before - enclosed - before * RESIDUE).max(0.0))
@@ -69,48 +69,48 @@ impl<L: Lanes> MediaSet<L> {
 
     /// What is left of light after so many metres (Beer and Lambert).
     #[inline(always)]
-    pub(crate) fn transmittance(self, distance: F<L>) -> Spectrum<L> {
+    pub fn transmittance(self, distance: F<L>) -> Spectrum<L> {
         (self.extinction * -distance.min(FAR)).exp()
     }
 }
 
 /// What rays are in that wait between stages.
 #[derive(Debug)]
-pub(crate) struct MediaColumns {
+pub struct MediaColumns {
     extinction: SpectrumColumns,
 }
 
 impl MediaColumns {
     /// Room for so many rays, which are in the open.
-    pub(crate) fn new(room: usize) -> Self {
+    pub fn new(room: usize) -> Self {
         Self { extinction: SpectrumColumns::new(room) }
     }
     /// Writes the chosen lanes behind the first `len` rays.
     #[inline(always)]
-    pub(crate) fn append<L: Lanes>(&mut self, media: MediaSet<L>, chosen: M<L>, len: usize) {
+    pub fn append<L: Lanes>(&mut self, media: MediaSet<L>, chosen: M<L>, len: usize) {
         self.extinction.append(media.extinction, chosen, len);
     }
     /// Those of a register of rays from the one at `at` on.
     #[inline(always)]
-    pub(crate) fn load<L: Lanes>(&self, l: L, at: usize) -> MediaSet<L> {
+    pub fn load<L: Lanes>(&self, l: L, at: usize) -> MediaSet<L> {
         MediaSet { extinction: self.extinction.load(l, at) }
     }
     /// Those of some rays.
     #[inline(always)]
-    pub(crate) fn gather<L: Lanes>(&self, l: L, ray: U<L>) -> MediaSet<L> {
+    pub fn gather<L: Lanes>(&self, l: L, ray: U<L>) -> MediaSet<L> {
         MediaSet { extinction: self.extinction.gather(l, ray) }
     }
     /// Copies those of one ray over another's.
-    pub(crate) fn copy(&mut self, from: usize, to: usize) {
+    pub fn copy(&mut self, from: usize, to: usize) {
         self.extinction.copy(from, to);
     }
     /// Adds one of some absorptions to what a ray is in, so many times.
-    pub(crate) fn add(&mut self, ray: usize, absorption: &SpectrumColumns, from: usize, times: f32) {
+    pub fn add(&mut self, ray: usize, absorption: &SpectrumColumns, from: usize, times: f32) {
         self.extinction.add(ray, absorption, from, times);
     }
     /// Lets nothing take away less than nothing: open meshes may be left without having been entered.
     #[inline(always)]
-    pub(crate) fn hold<L: Lanes>(&mut self, l: L, count: usize) {
+    pub fn hold<L: Lanes>(&mut self, l: L, count: usize) {
         (0..count).step_by(L::COUNT).for_each(|at| self.extinction.store(self.extinction.load(l, at).max(0.0), at));
     }
     /// All extinctions.

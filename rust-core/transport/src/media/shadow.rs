@@ -9,7 +9,7 @@ use gonio_simd::{Column, Lanes, PADDING, Spectrum, SpectrumColumns};
 
 /// By shadow ray; used where anything fills meshes.
 #[derive(Debug)]
-pub(crate) struct OpticalDepth {
+pub struct OpticalDepth {
     depth: SpectrumColumns,
     /// Extinction a metre where the ray ends.
     around: SpectrumColumns,
@@ -19,13 +19,13 @@ pub(crate) struct OpticalDepth {
 
 impl OpticalDepth {
     /// Room for so many rays.
-    pub(crate) fn new(room: usize) -> Self {
+    pub fn new(room: usize) -> Self {
         Self { depth: SpectrumColumns::new(room), around: SpectrumColumns::new(room), one: SpectrumColumns::new(PADDING) }
     }
 
     /// Begins the sums of so many rays with what they start in.
     #[inline(always)]
-    pub(crate) fn begin<L: Lanes>(&mut self, l: L, media: &MediaColumns, count: usize) {
+    pub fn begin<L: Lanes>(&mut self, l: L, media: &MediaColumns, count: usize) {
         for at in (0..count).step_by(L::COUNT) {
             self.depth.store(Spectrum::zero(l), at);
             self.around.store(media.extinction().load(l, at), at);
@@ -34,7 +34,7 @@ impl OpticalDepth {
 
     /// Adds hits on the surface of what a medium fills; `sides` are 1 where rays enter it, else -1.
     #[inline(always)]
-    pub(crate) fn add<L: Lanes>(&mut self, l: L, (media, row): (&MediumTable, u32), hits: &[TransparentHit], sides: &Column) {
+    pub fn add<L: Lanes>(&mut self, l: L, (media, row): (&MediumTable, u32), hits: &[TransparentHit], sides: &Column) {
         self.one.store(media.absorption(l, row), 0);
         for (hit, side) in hits.iter().zip(&sides[..]) {
             self.depth.add(hit.ray as usize, &self.one, 0, -side * hit.t);
@@ -44,7 +44,7 @@ impl OpticalDepth {
 
     /// What is left of light along a register of rays, from the one at `at` on, which end at these distances.
     #[inline(always)]
-    pub(crate) fn transmittance<L: Lanes>(&self, l: L, ends: &[f32], at: usize) -> Spectrum<L> {
+    pub fn transmittance<L: Lanes>(&self, l: L, ends: &[f32], at: usize) -> Spectrum<L> {
         let end = l.load(ends, at);
         let around = self.around.load(l, at);
         // Rounding must not darken what comes from infinitely far away.

@@ -4,3 +4,4 @@ mod bright_places;
 mod deep_sums;
 mod material_order;
 mod matte_names;
+mod media;
