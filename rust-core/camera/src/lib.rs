@@ -68,10 +68,22 @@ pub struct CameraTable {
     pub clipping: [f32; 2],
     /// How it moves while the shutter is open; `axes` and `position` are where it rests.
     pub motion: Option<Arc<Motion>>,
-    /// Absorption a metre of what its middle stands in.
-    pub medium: [f32; 3],
-    /// Squared index of it: what paths carry is radiance over it.
+    /// What its middle stands in.
+    pub surroundings: Surroundings,
+}
+
+/// What a place stands in: glass, water, resin, or the open.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Surroundings {
+    /// Absorption a metre, R, G, B.
+    pub absorption: [f32; 3],
+    /// Squared index of refraction: what paths carry is radiance over it.
     pub squared_index: f32,
+}
+
+impl Surroundings {
+    /// Air, which takes nothing away.
+    pub const OPEN: Self = Self { absorption: [0.0; 3], squared_index: 1.0 };
 }
 
 /// A ray for each lane.

@@ -1,6 +1,6 @@
 //! Directions against Cycles' own, lenses against what they must do.
 
-use super::{Aperture, CameraTable, Lens};
+use super::{Aperture, CameraTable, Lens, Surroundings};
 use gonio_simd::{Column, Execution, F, Lanes, One, Vec3, dispatch};
 use std::f32::consts::{FRAC_PI_2, PI};
 
@@ -18,8 +18,7 @@ pub(crate) fn table(lens: Lens, resolution: [f32; 2], size: [f32; 2], middle: [f
         planes: Vec::new(),
         clipping: [0.1, 100.0],
         motion: None,
-        medium: [0.0; 3],
-        squared_index: 1.0,
+        surroundings: Surroundings::OPEN,
     }
 }
 

@@ -82,7 +82,7 @@ fn masks_hide_instances() {
     for _ in 0..16 {
         rays.push([0.1, 0.2, 1.0], [0.0, 0.0, -1.0], f32::INFINITY);
     }
-    rays.mask = [2u8, 4, 6, 1, 2, 4, 6, 1, 2, 4, 6, 1, 2, 4, 6, 0].to_vec();
+    rays.mask = [2, 4, 6, 1, 2, 4, 6, 1, 2, 4, 6, 1, 2, 4, 6, 0].to_vec();
     let expected: Vec<u32> = rays
         .mask
         .iter()

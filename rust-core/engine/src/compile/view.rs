@@ -3,12 +3,12 @@
 use super::{compiled::CompiledScene, expressions, light_groups, motion, motion_vectors, samples, shader_passes};
 use crate::{
     antialias::Rule,
-    camera::{Aperture, CameraTable, Lens},
+    camera::{Aperture, CameraTable, Lens, Surroundings},
     error::{Error, Result},
     film::{ChannelLayout, Film, GROUP, PictureProjection, PictureView, Placement, tabulate},
     memory::room_for,
     scene::{Antialiasing, Aov, Background, Camera, Crop, Integrator, Projection, Settings},
-    transport::{Distance, Estimator, FirstLight, Limits, Mist, Passes, PathFilter, Transport, medium_at, squared_indices_at},
+    transport::{Distance, Estimator, FirstLight, Limits, Mist, Passes, PathFilter, Transport, surroundings_at},
 };
 use gonio_simd::Execution;
 
@@ -52,12 +52,15 @@ impl View {
         }
         let table = camera_table(camera, settings, scene.tables.origin)?;
         let motion = motion::of_camera(camera, settings, scene.tables.origin);
-        let medium = medium_at(&scene.tables, camera.transform.columns[3]);
-        let squared_index = squared_indices_at(&scene.tables, &[table.position])[0];
-        let table = CameraTable { motion, medium, squared_index, ..table };
+        let surroundings = surroundings_at(&scene.tables, &[camera.transform.columns[3]])[0];
+        let table = CameraTable { motion, surroundings, ..table };
         let shutter = motion::shutter(&scene.tables.bvh, table.motion.as_deref(), settings);
         let forward = table.axes[2].map(|x| -x);
-        let mut transport = Transport { shutter, squared_index, ..transport(scene, settings, execution, table.position, forward) };
+        let mut transport = Transport {
+            shutter,
+            squared_index: surroundings.squared_index,
+            ..transport(scene, settings, execution, table.position, forward)
+        };
         transport.passes.motion = motion_vectors::cameras(camera, settings, |camera| camera_table(camera, settings, scene.tables.origin))?;
         let transport = Transport { passes: deep_of(&table, transport.passes.clone()), ..transport };
         let placement = match settings.antialiasing {
@@ -296,8 +299,7 @@ fn camera_table(camera: &Camera, settings: &Settings, origin: [f64; 3]) -> Resul
             .collect(),
         clipping: [camera.clipping[0].max(0.0) as f32, camera.clipping[1].min(f64::from(f32::MAX)) as f32],
         motion: None,
-        medium: [0.0; 3],
-        squared_index: 1.0,
+        surroundings: Surroundings::OPEN,
     })
 }
 

@@ -11,11 +11,12 @@ use super::{
     watch::Watch,
 };
 use crate::{
+    camera::Surroundings,
     compile::{CompiledScene, light_paths_measure},
     error::{Error, Result},
     render::{LightPaths, Progress},
     scene::{Measurand, Meter, Settings},
-    transport::{Sensor, medium_at, squared_indices_at},
+    transport::{Sensor, surroundings_at},
 };
 use gonio_simd::Execution;
 use std::{f64::consts::PI, sync::Arc};
@@ -87,10 +88,13 @@ impl Probe {
             side: single(self.side),
             turn: self.turn as f32,
             looks: self.looks,
-            // On the side that is measured, for sensors lie on surfaces.
-            medium: medium_at(&scene.tables, add(self.position, scaled(self.normal, BEFORE * error))),
-            squared_index: 1.0,
+            surroundings: Surroundings::OPEN,
         }
+    }
+
+    /// A place on the side that is measured, for sensors lie on surfaces; world space.
+    fn before(&self, sensor: &Sensor) -> [f64; 3] {
+        add(self.position, scaled(self.normal, BEFORE * f64::from(sensor.error)))
     }
 }
 
@@ -117,9 +121,8 @@ pub(super) fn sense(
 ) -> Result<Sensed> {
     let radius = Some(scene.bounds.radius()).filter(|radius| radius.is_finite()).unwrap_or(0.0);
     let mut sensors: Vec<Sensor> = probes.iter().map(|probe| probe.sensor(scene, radius)).collect();
-    let before = |sensor: &Sensor| [0, 1, 2].map(|axis| sensor.normal[axis].mul_add(BEFORE as f32 * sensor.error, sensor.position[axis]));
-    let squared = squared_indices_at(&scene.tables, &sensors.iter().map(before).collect::<Vec<_>>());
-    sensors.iter_mut().zip(squared).for_each(|(sensor, squared)| sensor.squared_index = squared);
+    let places: Vec<[f64; 3]> = probes.iter().zip(&sensors).map(|(probe, sensor)| probe.before(sensor)).collect();
+    sensors.iter_mut().zip(surroundings_at(&scene.tables, &places)).for_each(|(sensor, found)| sensor.surroundings = found);
     let settings = unlimited(settings);
     let sensing = Sensing { scene, sensors: &sensors, settings: &settings, execution };
     let starts = light_paths_measure::for_meters(scene, &settings, watch.cancel);
@@ -167,7 +170,7 @@ fn with_light_paths(
     let all = sensing.sensors.iter().zip(discs.all()).zip(own.iter().zip(&brought));
     let readings = all.map(|((sensor, disc), (own, brought))| match (sensor.looks, disc.radius > 0.0) {
         (true, _) => *own,
-        (false, true) => own.plus(&brought.times(f64::from(sensor.squared_index))),
+        (false, true) => own.plus(&brought.times(f64::from(sensor.surroundings.squared_index))),
         (false, false) => Reading { value: f64::NAN, standard_error: f64::NAN },
     });
     Ok(readings.collect())

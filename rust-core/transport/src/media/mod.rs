@@ -5,4 +5,3 @@
 
 pub mod set;
 pub mod shadow;
-

@@ -35,7 +35,7 @@ impl<L: Lanes> MediaSet<L> {
         self.extinction
     }
 
-    /// What a place is in, as [`crate::medium_at`] tells; in every lane.
+    /// What a place is in, as [`crate::surroundings_at`] tells; in every lane.
     #[inline(always)]
     pub fn at_place(l: L, absorption: [f32; 3]) -> Self {
         let [r, g, b] = absorption.map(|x| l.f(x));

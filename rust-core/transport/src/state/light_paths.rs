@@ -1,9 +1,9 @@
 //! Light paths' own state: the flux that each started with, and what a bounce brings: flux that arrived, escaped or may reach the camera.
 
 use crate::state::columns::{Columns3, append3, columns3};
-use crate::state::textured_emission::EmissionRoom;
 use crate::state::media::StartRoom;
 use crate::state::queue::shadow_rays::ShadowRays;
+use crate::state::textured_emission::EmissionRoom;
 use crate::words::{flag, ray_mask};
 use gonio_camera::sampler::{BATCH, CAPACITY};
 use gonio_simd::{Column, Lanes, M, PADDING, Rgb, Spectrum, SpectrumColumns, U, Vec3, padded};

@@ -4,7 +4,6 @@
 
 pub(crate) mod chunk;
 pub(crate) mod columns;
-pub(crate) mod textured_emission;
 pub(crate) mod light_paths;
 pub(crate) mod material_order;
 pub(crate) mod media;
@@ -16,6 +15,7 @@ pub(crate) mod paths;
 pub(crate) mod queue;
 pub(crate) mod rays;
 pub(crate) mod sample;
+pub(crate) mod textured_emission;
 pub(crate) mod times;
 pub(crate) mod vertex;
 pub(crate) mod workspace;

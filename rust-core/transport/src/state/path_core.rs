@@ -4,7 +4,9 @@
 //! a column there, and somebody who decides its value at scattering ([`crate::state::vertex::Vertex`]'s makers).
 
 use crate::media::set::MediaSet;
-use gonio_simd::{F, Lanes, Spectrum, U};
+use crate::words::flag;
+use gonio_camera::Surroundings;
+use gonio_simd::{Column, F, Lanes, Spectrum, U};
 
 /// One register of what paths carry.
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +27,40 @@ pub(crate) struct PathCore<L: Lanes> {
     pub(crate) unguided: F<L>,
 }
 
+/// What cameras and meters stand in, as columns.
+#[derive(Debug)]
+pub(crate) struct SurroundingsColumns {
+    absorption: [Column; 3],
+    squared_index: Column,
+}
+
+impl SurroundingsColumns {
+    pub(crate) fn new(all: &[Surroundings]) -> Self {
+        let column = |value: &dyn Fn(&Surroundings) -> f32| {
+            let mut column = Column::new(gonio_simd::padded(all.len()) + gonio_simd::PADDING);
+            column.iter_mut().zip(all).for_each(|(place, one)| *place = value(one));
+            column
+        };
+        Self { absorption: [0, 1, 2].map(|part| column(&|one| one.absorption[part])), squared_index: column(&|one| one.squared_index) }
+    }
+}
+
 impl<L: Lanes> PathCore<L> {
+    /// That of paths which start at a camera.
+    #[inline(always)]
+    pub(crate) fn of_camera(l: L, slot: U<L>, camera: &Surroundings) -> Self {
+        let throughput = Spectrum::constant(l.f(camera.squared_index));
+        Self { throughput, media: MediaSet::at_place(l, camera.absorption), ..Self::new(l, slot, l.u(flag::CAMERA | flag::DELTA)) }
+    }
+
+    /// That of paths which start at meters.
+    #[inline(always)]
+    pub(crate) fn of_sensors(l: L, slot: U<L>, sensors: &SurroundingsColumns, sensor: U<L>) -> Self {
+        let throughput = Spectrum::constant(l.gather(&sensors.squared_index, sensor));
+        let media = MediaSet::at_places(l, &sensors.absorption, sensor);
+        Self { throughput, media, ..Self::new(l, slot, l.u(flag::CAMERA | flag::DELTA)) }
+    }
+
     /// That of a path which begins, a line, in the open.
     #[inline(always)]
     pub(crate) fn new(l: L, slot: U<L>, flags: U<L>) -> Self {

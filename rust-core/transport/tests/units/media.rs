@@ -1,7 +1,7 @@
 //! Media against Beer and Lambert's law, lane for lane.
 
 use gonio_accel::TransparentHit;
-use gonio_simd::{Column, One, PADDING, Rgb, Spectrum};
+use gonio_simd::{Column, Lanes, One, PADDING, Rgb, Spectrum};
 use gonio_transport::media::{
     set::{MediaColumns, MediaSet},
     shadow::OpticalDepth,

@@ -1,6 +1,5 @@
 //! Light at a vertex: next event estimation with its shadow rays, and what light paths brought.
 
-pub(crate) mod textured_emission;
 pub(crate) mod light_queue;
 pub(crate) mod linked_shadow;
 pub(crate) mod measure;
@@ -8,3 +7,4 @@ pub(crate) mod merge;
 pub(crate) mod nee;
 pub(crate) mod shadow;
 pub(crate) mod terminator;
+pub(crate) mod textured_emission;

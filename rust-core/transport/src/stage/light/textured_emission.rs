@@ -7,13 +7,13 @@ use crate::stage::find::closures::{ClosureHits, MaterialHits, each_closure};
 use crate::stage::find::sort::for_materials;
 use crate::state::chunk::ChunkColumns;
 use crate::state::columns::load3;
-use crate::state::textured_emission::{EmissionRoom, EmissionScratch};
 use crate::state::light_paths::LightStarts;
 use crate::state::mix_weights::ClosureWeights;
 use crate::state::paths::Paths;
 use crate::state::queue::shadow_rays::ShadowRays;
 use crate::state::queue::shadow_trace::ShadowTrace;
 use crate::state::rays::Rays;
+use crate::state::textured_emission::{EmissionRoom, EmissionScratch};
 use crate::tables::Tables;
 use crate::tables::material::{threshold, values_by};
 use crate::tables::transport::Transport;
@@ -22,7 +22,13 @@ use gonio_bsdf::parameter::OPACITY;
 use gonio_simd::{Execution, Frame, Lanes, One, PADDING, Spectrum, SpectrumColumns, dispatch};
 
 /// Gives the shadow rays that arrive at such meshes what the points emit, within their limits.
-pub(crate) fn multiply(tables: &Tables, transport: &Transport, trace: &mut ShadowTrace, shadows: &mut ShadowRays, columns: &mut ChunkColumns) {
+pub(crate) fn multiply(
+    tables: &Tables,
+    transport: &Transport,
+    trace: &mut ShadowTrace,
+    shadows: &mut ShadowRays,
+    columns: &mut ChunkColumns,
+) {
     if !tables.lights.any_shaded() {
         return;
     }

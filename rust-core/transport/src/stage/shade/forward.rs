@@ -240,7 +240,9 @@ fn connect<'s, L: Lanes>(
     let light = l.gather_integers(&starts.light, point.core.slot);
     let scattered =
         if chunk.tables.lights.has_factors() { straight.select(scattered * seen_share(chunk, exact, light), scattered) } else { scattered };
-    let value = starts.carried(l, point.core.slot, point.core.throughput) * scattered * (seen.importance * picture.camera.squared_index);
+    let value = starts.carried(l, point.core.slot, point.core.throughput)
+        * scattered
+        * (seen.importance * picture.camera.surroundings.squared_index);
     let lit = usable & value.is_lit() & value.abs().max_component().is_finite();
     let to_lens = shadow_ray_to(point.at.position, point.at.geometric, point.at.error, to, seen.distance);
     // The first surface that the camera sees scatters all of it: a light pass each, by the kind of its lobes. What comes later camera paths give to

@@ -1,16 +1,14 @@
 //! Ray generation: a camera ray with its ray cone, the start of a path, for every slot of a batch.
 
-use crate::media::set::MediaSet;
 use crate::state::path_core::PathCore;
 use crate::state::paths::{PathLanes, Paths};
 use crate::state::rays::RayLanes;
-use crate::words::flag;
 use gonio_camera::Placement;
 use gonio_camera::sampler::Runs;
 use gonio_camera::sampler::morton_even;
 use gonio_camera::sampler::{Sampler, dimension};
 use gonio_camera::{CameraRay, CameraTable};
-use gonio_simd::{Lanes, PADDING, Spectrum, U};
+use gonio_simd::{Lanes, PADDING};
 
 /// The rectangle of pixels that one batch covers.
 #[derive(Clone, Copy, Debug)]
@@ -37,7 +35,7 @@ pub fn generate<L: Lanes>(
     paths: &mut Paths,
 ) {
     paths.clear();
-    let media = MediaSet::at_place(l, camera.medium);
+    let begun = PathCore::of_camera(l, l.u(0), &camera.surroundings);
     for [slot, first_pixel, sample] in runs.registers(L::COUNT) {
         let pixel = l.iota() + first_pixel;
         let (x, y) = (morton_even(pixel), morton_even(pixel >> 1));
@@ -59,7 +57,7 @@ pub fn generate<L: Lanes>(
         };
         let raster = [(x + area.min[0]).to_float() + 0.5 + u, (y + area.min[1]).to_float() + 0.5 + v];
         let ray = if times.is_empty() { camera.ray(l, raster, lens) } else { camera.ray_at(l, raster, lens, l.load(times, slot as usize)) };
-        paths.append(&started(l, &ray, l.iota() + slot, (media, camera.squared_index)), inside & ray.mapped);
+        paths.append(&started(&ray, PathCore { slot: l.iota() + slot, ..begun }), inside & ray.mapped);
     }
     paths.set_masks();
 }
@@ -68,7 +66,7 @@ pub fn generate<L: Lanes>(
 #[inline(always)]
 pub(crate) fn generate_at<L: Lanes>(l: L, camera: &CameraTable, places: [&[f32]; 2], slots: &[u32], paths: &mut Paths) {
     paths.clear();
-    let media = MediaSet::at_place(l, camera.medium);
+    let begun = PathCore::of_camera(l, l.u(0), &camera.surroundings);
     let (mut x, mut y, mut slot) = ([0.0; PADDING], [0.0; PADDING], [0; PADDING]);
     for first in (0..slots.len()).step_by(L::COUNT) {
         let end = (first + L::COUNT).min(slots.len());
@@ -76,16 +74,14 @@ pub(crate) fn generate_at<L: Lanes>(l: L, camera: &CameraTable, places: [&[f32];
         y[..end - first].copy_from_slice(&places[1][first..end]);
         slot[..end - first].copy_from_slice(&slots[first..end]);
         let ray = camera.ray(l, [l.load(&x, 0), l.load(&y, 0)], [l.f(0.5); 2]);
-        paths.append(&started(l, &ray, l.load_integers(&slot, 0), (media, camera.squared_index)), l.first(end - first) & ray.mapped);
+        paths.append(&started(&ray, PathCore { slot: l.load_integers(&slot, 0), ..begun }), l.first(end - first) & ray.mapped);
     }
     paths.set_masks();
 }
 
-/// The path of a camera ray that starts in something that absorbs and refracts so.
+/// The path of a camera ray.
 #[inline(always)]
-fn started<L: Lanes>(l: L, ray: &CameraRay<L>, slot: U<L>, (media, squared_index): (MediaSet<L>, f32)) -> PathLanes<L> {
-    let throughput = Spectrum::constant(l.f(squared_index));
-    let core =
-        PathCore { throughput, width: ray.width, spread: ray.spread, media, ..PathCore::new(l, slot, l.u(flag::CAMERA | flag::DELTA)) };
+fn started<L: Lanes>(ray: &CameraRay<L>, core: PathCore<L>) -> PathLanes<L> {
+    let core = PathCore { width: ray.width, spread: ray.spread, ..core };
     PathLanes::start(RayLanes { origin: ray.origin, direction: ray.direction, t_min: ray.t_min, t_max: ray.t_max }, core)
 }

@@ -6,3 +6,4 @@ pub(crate) mod index;
 pub(crate) mod places;
 pub(crate) mod sensors;
 pub(crate) mod start_media;
+pub(crate) mod surroundings;

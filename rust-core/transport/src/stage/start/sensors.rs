@@ -3,17 +3,16 @@
 //! A sensor owns a square block of pixels, which follow one another along the Morton curve. So their samples together are one net of the
 //! sampler's sequence, and the lanes of a register lie side by side.
 
-use crate::media::set::MediaSet;
 use crate::stage::start::generate::TileArea;
 use crate::state::columns::gather3;
-use crate::state::path_core::PathCore;
+use crate::state::path_core::{PathCore, SurroundingsColumns};
 use crate::state::paths::{PathLanes, Paths};
 use crate::state::queue::measure_points::{MeasureLanes, MeasurePoints};
 use crate::state::rays::RayLanes;
-use crate::words::flag;
+use gonio_camera::Surroundings;
 use gonio_camera::sampler::{Runs, TILE, morton_even};
 use gonio_camera::sampler::{Sampler, dimension};
-use gonio_simd::{Column, Lanes, Spectrum};
+use gonio_simd::{Column, Lanes};
 
 /// A sensor, rebased world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,10 +29,8 @@ pub struct Sensor {
     pub turn: f32,
     /// Measures luminance along the normal instead of illuminance.
     pub looks: bool,
-    /// Absorption a metre of what it stands in.
-    pub medium: [f32; 3],
-    /// Squared index of what it stands in: what paths carry is radiance over it.
-    pub squared_index: f32,
+    /// What it stands in.
+    pub surroundings: Surroundings,
 }
 
 /// The sensors of a measurement as columns, and how pixels belong to them.
@@ -50,8 +47,7 @@ pub struct SensorTable {
     side: [Column; 3],
     turn: Column,
     looks: Column<u32>,
-    medium: [Column; 3],
-    squared_index: Column,
+    surroundings: SurroundingsColumns,
 }
 
 /// Logarithm of a tile's side.
@@ -82,8 +78,7 @@ impl SensorTable {
             side: std::array::from_fn(|axis| column(&|sensor| sensor.side[axis])),
             turn: column(&|sensor| sensor.turn),
             looks,
-            medium: std::array::from_fn(|part| column(&|sensor| sensor.medium[part])),
-            squared_index: column(&|sensor| sensor.squared_index),
+            surroundings: SurroundingsColumns::new(&sensors.iter().map(|sensor| sensor.surroundings).collect::<Vec<_>>()),
         }
     }
 
@@ -131,9 +126,7 @@ pub(crate) fn start_sensors<L: Lanes>(
         let normal = (gather3(l, &sensors.normal, sensor) * cos + gather3(l, &sensors.side, sensor) * sin).normalize();
         let position = gather3(l, &sensors.position, sensor);
         let looks = l.gather_integers(&sensors.looks, sensor).ne(0);
-        let media = MediaSet::at_places(l, &sensors.medium, sensor);
-        let throughput = Spectrum::constant(l.gather(&sensors.squared_index, sensor));
-        let core = PathCore { throughput, media, ..PathCore::new(l, slot, l.u(flag::CAMERA | flag::DELTA)) };
+        let core = PathCore::of_sensors(l, slot, &sensors.surroundings, sensor);
         let point = MeasureLanes {
             position,
             error: l.gather(&sensors.error, sensor),

@@ -20,9 +20,8 @@ const DIRECTION: [f32; 3] = [0.233_25, 0.317_56, 0.919_11];
 /// Most surfaces of a mesh that are crossed.
 const MOST: usize = 4096;
 
-/// Absorption a metre at a place in world space, R, G, B.
-pub fn medium_at(tables: &Tables, place: [f64; 3]) -> [f32; 3] {
-    let origin = [0, 1, 2].map(|axis| (place[axis] - tables.origin[axis]) as f32);
+/// Absorption a metre at a place in rebased world space, R, G, B.
+pub(super) fn absorption_at(tables: &Tables, origin: [f32; 3]) -> [f32; 3] {
     if !tables.bodies.all.iter().any(|body| body.may_hold(origin)) {
         return [0.0; 3];
     }

@@ -2,11 +2,11 @@
 
 use crate::graph::CHUNK;
 use crate::media::shadow::OpticalDepth;
-use crate::state::textured_emission::EmissionScratch;
 use crate::state::mix_weights::MixWeights;
 use crate::state::queue::shadow_order::ShadowOrder;
 use crate::state::queue::shadow_rays::SHADOW_ROOM;
 use crate::state::rays::Rays;
+use crate::state::textured_emission::EmissionScratch;
 use crate::words::ray_mask;
 use gonio_accel::TransparentHit;
 use gonio_simd::{PADDING, SpectrumColumns};
