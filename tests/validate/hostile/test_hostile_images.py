@@ -1,16 +1,13 @@
 """Hostile images as textures, as domes and read tile by tile: a picture or one line within 6 GB of addresses, never a crash or a wait."""
 
-import resource
-
 import pytest
+from bounds import judged, limited
 from images import IMAGES
 
 pytestmark = [pytest.mark.validate, pytest.mark.timeout(600)]
 
-MOST = 6 << 30
 # A dome's file may be told by its first bytes, so one that takes seconds to make is tried once.
 BOMBS = ("bomb_16k.png", "iccp_bomb.png", "ztxt_bomb.png")
-BAD_WORDS = ("Traceback", "panicked", "RUST_BACKTRACE", "Segmentation", "memory allocation of", "core dumped", "Aborted", "broke down")
 HEAD = """#usda 1.0
 (
     metersPerUnit = 1
@@ -63,10 +60,6 @@ def Material "M"
 """
 
 
-def limited():
-    resource.setrlimit(resource.RLIMIT_AS, (MOST, MOST))
-
-
 @pytest.mark.parametrize("name", IMAGES)
 def test_hostile_images(run, tmp_path, name):
     (tmp_path / name).write_bytes(IMAGES[name]())
@@ -75,5 +68,4 @@ def test_hostile_images(run, tmp_path, name):
     for use, options in ways[:1] if name in BOMBS else ways:
         stage.write_text(HEAD + use.format(file=name))
         size = ("--res", 16, 16, "--spp", 1, "-j", 1)
-        done = run("render", stage, "-o", tmp_path / "a.exr", *size, *options, timeout=130, preexec_fn=limited)
-        assert done.returncode in (0, 1) and not any(word in done.stderr for word in BAD_WORDS), (done.returncode, done.stderr)
+        judged(run("render", stage, "-o", tmp_path / "a.exr", *size, *options, timeout=130, preexec_fn=limited))
