@@ -2,14 +2,15 @@
 
 import resource
 
-# Addresses that a run may have, bytes.
-MOST = 6 << 30
+# Addresses that a run may have, bytes, and time of the processor, seconds: that of the clock depends on what else runs.
+MOST, LONGEST = 6 << 30, 120
 BAD_WORDS = ("Traceback", "panicked", "RUST_BACKTRACE", "Segmentation", "memory allocation of", "core dumped", "Aborted", "broke down")
 
 
 def limited():
-    """Has a child get no more memory than that."""
+    """Has a child get no more than that."""
     resource.setrlimit(resource.RLIMIT_AS, (MOST, MOST))
+    resource.setrlimit(resource.RLIMIT_CPU, (LONGEST, LONGEST))
 
 
 def judged(done, statuses=(0, 1)):

@@ -1,5 +1,6 @@
 """Material graphs that are nested absurdly, as the bodies of stages; a wall is bound to /M."""
 
+import pictures
 from nests import MESH, layer, stage
 
 WALL = MESH.format(more="rel material:binding = </M>")
@@ -23,7 +24,7 @@ PREVIEW = """
     def Shader "T"
     {
         uniform token info:id = "UsdUVTexture"
-        asset inputs:file = @absent.png@
+        asset inputs:file = @there.png@
         float2 inputs:st.connect = </M/U0.outputs:result>
         float3 outputs:rgb
     }
@@ -91,11 +92,17 @@ def interfaces_5000_long(folder):
 
 
 def places_3000_deep(folder):
+    picture(folder)
     stage(folder, material(PREVIEW, *(place(k, k + 1) for k in range(3000)), place(3000, None)))
 
 
 def places_in_a_circle_of_3000(folder):
+    picture(folder)
     stage(folder, material(PREVIEW, *(place(k, (k + 1) % 3000) for k in range(3000))))
+
+
+def picture(folder):
+    pictures.write_png(folder / "there.png", [[[200, 100, 50]] * 4] * 4)
 
 
 def place(number, following):

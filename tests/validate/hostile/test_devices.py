@@ -9,9 +9,10 @@ import pytest
 from bounds import judged, limited, refused
 from writers import IES, WRITERS, copied, ending, kitchen, words_of
 
-pytestmark = [pytest.mark.validate, pytest.mark.timeout(300)]
+pytestmark = [pytest.mark.validate, pytest.mark.timeout(1500)]
 
-SECONDS = 40
+# Of the clock, for machines that do other things too; who waits for a pipe waits longer.
+SECONDS = 240
 
 
 @pytest.fixture(scope="module")
@@ -127,7 +128,12 @@ OWN_INPUTS = {
 REPLACED = {"texture by its picture", "lamp's file by its measurement", "lamp's file by its conversion", "picture relit"}
 
 
-@pytest.mark.parametrize("name", OWN_INPUTS)
+# What `gonio map` writes over, though it has read it.
+WRITTEN_OVER = {"stage by its map", "stage by another path", "stage by a link", "layer by its map"}
+WRITES_OVER = pytest.mark.xfail(strict=True, reason="`gonio map -o` takes a layer of the stage that it reads as its target and writes over it")
+
+
+@pytest.mark.parametrize("name", [pytest.param(name, marks=WRITES_OVER if name in WRITTEN_OVER else ()) for name in OWN_INPUTS])
 def test_an_input_as_output(run, folder, name):
     line, kept = OWN_INPUTS[name]
     (folder / "again").mkdir()
@@ -172,7 +178,10 @@ NAMES = {
 def test_names_of_outputs(write, folder, writer, name):
     file = f"{NAMES[name]}.{ending(writer)}"
     before = {path.name for path in folder.iterdir()}
-    done = judged(write(writer, f"./{file}"))
+    done = judged(write(writer, f"./{file}"), statuses=(0, 1, 2))
+    if name == "bytes that are no text":
+        assert done.returncode == 2 and "no text" in done.stderr, done.stderr
+        return
     assert done.returncode == 0, done.stderr
     assert {path.name for path in folder.iterdir()} - before == {file}
 
@@ -181,9 +190,11 @@ def test_names_of_outputs(write, folder, writer, name):
 def test_names_of_stages(run, folder, name):
     stage = folder / f"{NAMES[name]}.usda"
     (folder / "stage.usda").rename(stage)
-    done = judged(run("render", stage, "-o", "a.png", "--res", 8, 8, "--spp", 1, cwd=folder, timeout=SECONDS))
+    done = judged(run("render", stage, "-o", "a.png", "--res", 8, 8, "--spp", 1, cwd=folder, timeout=SECONDS), statuses=(0, 1, 2))
     # The USD library takes names that are text alone.
-    assert done.returncode == 0 or name == "bytes that are no text", done.stderr
+    assert done.returncode == (2 if name == "bytes that are no text" else 0), done.stderr
+    if done.returncode:
+        return
     stage.unlink()
     assert refused(run("render", stage, "-o", "a.png", cwd=folder, timeout=SECONDS))
 
@@ -263,8 +274,8 @@ IN_STAGES = {
     "sublayer": ("usda", "", "subLayers = [@FILE@]"),
     "clips": (
         "usda",
-        'def Cube "X" (clips = { dictionary default = { asset[] assetPaths = [@FILE@] string primPath = "/X" '
-        "double2[] active = [(0, 0)] double2[] times = [(0, 0)] } }) {}\n",
+        'def Cube "X" (\nclips = {\ndictionary default = {\nasset[] assetPaths = [@FILE@]\nstring primPath = "/X"\n'
+        "double2[] active = [(0, 0)]\ndouble2[] times = [(0, 0)]\n}\n}\n) {}\n",
         "",
     ),
 }
