@@ -146,7 +146,8 @@ def geometry(t, node, context, output):
     if computed is None:
         return None
     if t.kind != "Material":
-        return t.graph.scalar(0.0)
+        # What lamps have of coordinates are those of their own surface or sphere.
+        return t.primvar(UV) if name == "Parametric" else t.graph.scalar(0.0)
     return t.primvar(computed, kind="VECTOR" if name == "Parametric" else "VALUE")
 
 

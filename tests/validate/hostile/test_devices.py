@@ -101,6 +101,9 @@ def test_links(write, folder, name):
         done = judged(write(name, target))
         assert (done.returncode == 0) == works, (link, done.stderr)
         assert target.is_symlink(), link
+    if name == "sums":
+        # A checkpoint that is there is gone on with, or refused.
+        return
     there = folder / "kept" / f"there.{ending(name)}"
     there.write_text("old")
     link = folder / f"link.{ending(name)}"
@@ -203,7 +206,7 @@ def test_names_of_stages(run, folder, name):
 def test_paths_that_are_too_long(write, folder, name):
     refused(write(name, folder / ("n" * 300 + f".{ending(name)}")))
     deep = "/".join(["d" * 200] * 25)
-    refused(write(name, f"{deep}/a.{ending(name)}"))
+    assert judged(write(name, f"{deep}/a.{ending(name)}"), longest=len(deep) + 800).returncode == 1
     within = folder / "/".join(["d" * 60] * 5)
     within.mkdir(parents=True)
     assert len(str(within)) > 300

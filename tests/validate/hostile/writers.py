@@ -32,7 +32,7 @@ WRITERS = {
     "svg": "goniometer stage.usda --luminaire /Lit --rays 100k --polar {}",
     "ies": "photometry lamp.ies --convert {}",
     "svg polar": "photometry lamp.ies --polar {}",
-    "html": "report stage.usda -o {} --spp 1",
+    "html": "report stage.usda -o {} --no-pictures --point-spp 16 -q",
     "png false": "falsecolor picture.exr --quantity luminance -o {}",
     "exr relit": "relight picture.exr -o {}",
 }
