@@ -81,6 +81,11 @@ LIGHTS = {
     ),
     "light falloff": Limit("Light falloffs of suns, several in one lamp, or with smoothing that varies", "suns stay even, the first one counts, unsmoothed"),
     "lamp's light path": Limit("Light Path in lamps: kinds of rays", "every ray counts as one of no kind, as those that light the scene"),
+    "lamp's attribute": Limit("Attribute nodes in lamps: those of objects, instancers and view layers", "the value 0"),
+    "lamp's tangent": Limit("Tangents in lamps", "directions around their axis; Cycles' Geometry node makes them dark"),
+    "aslant": Limit(
+        "Area lamps that ask where they are seen from: Incoming, Reflection, Fresnel, Layer Weight", "all of their light is as seen straight on"
+    ),
     "lamp bounces": Limit("Most bounces of one light", "the scene's number"),
     "ies elsewhere": Limit(
         "IES textures in worlds, of types A and B on surfaces, with a vector or more than one a lamp", "even light of the strength"

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the Object, Particle, Point and Volume Info nodes know of a placement; the last two know nothing of meshes."""
 
+from ..random_number import of_words
 from .inputs import COLOUR, INDEX, LOCATION, PARTICLE, RANDOM
 from .registry import value_node
 
@@ -21,7 +22,10 @@ def object_info(t, node, context, output):
 @value_node("ShaderNodeParticleInfo")
 def particle_info(t, node, context, output):
     kind = "VECTOR" if output.type == "VECTOR" else "VALUE"
-    return t.instance_primvar(PARTICLE + output.identifier, kind) if t.kind == "Material" else t.graph.scalar(0.0)
+    if t.kind == "Material":
+        return t.instance_primvar(PARTICLE + output.identifier, kind)
+    # Lamps and worlds are of the particle that is none, which has a random number all the same.
+    return t.graph.scalar(of_words(0, 0) / 0xFFFFFFFF if output.identifier == "Random" else 0.0)
 
 
 @value_node("ShaderNodePointInfo", "ShaderNodeVolumeInfo")

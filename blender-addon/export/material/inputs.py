@@ -76,11 +76,18 @@ def texture_coordinates(t, node, context, output):
     if name == "Normal":
         return carried(t, hit(t, "Normal"), "World", "Object", "Normal")
     if name == "Reflection":
+        seen_straight(t, node, context)
         normal, incoming = hit(t, "Normal"), hit(t, "Incoming")
         return normal * (normal.dot(incoming) * 2.0) - incoming
     from .camera_nodes import in_camera, in_picture
 
     return in_camera(t) if name == "Camera" else in_picture(t)
+
+
+def seen_straight(t, node, context):
+    """Tells that lamps with a surface have nobody who sees them aslant."""
+    if t.kind == "Light" and t.owner.type == "AREA":
+        t.tell("aslant", node, context)
 
 
 def _world_coordinates(t, node, name):
@@ -134,11 +141,15 @@ def geometry(t, node, context, output):
     if t.is_world:
         return _world_geometry(t, name)
     simple = {"Position": "Position", "Normal": "Normal", "True Normal": "GeometricNormal", "Incoming": "Incoming"}
+    if name == "Incoming":
+        seen_straight(t, node, context)
     if name in simple:
         return hit(t, simple[name])
     if name == "Backfacing":
         return 1.0 - hit(t, "FrontFacing")
     if name == "Tangent":
+        if t.kind == "Light":
+            t.tell("lamp's tangent", node, context)
         from .tangent_nodes import radial_tangent
 
         return radial_tangent(t)
@@ -169,6 +180,8 @@ def colour_attribute(t, node, context, output):
 @value_node("ShaderNodeAttribute")
 def attribute(t, node, context, output):
     kind, name = node.attribute_type, node.attribute_name
+    if t.kind == "Light" and kind != "GEOMETRY":
+        t.tell("lamp's attribute", node, context)
     if kind == "VIEW_LAYER":
         return part_of(t.graph.colour(t.ask(LAYER + name) or NOTHING), output)
     if kind == "GEOMETRY":
@@ -195,6 +208,7 @@ def part_of(value, output):
 
 @value_node("ShaderNodeFresnel")
 def fresnel(t, node, context, output):
+    seen_straight(t, node, context)
     ior = t.input(node, "IOR", context, 1.5).maximum(1e-5)
     eta = (t.graph.value(1.0) / ior).mix(ior, hit(t, "FrontFacing"))
     return cosine(t, node, context).apply("Fresnel", eta)
@@ -207,6 +221,7 @@ def cosine(t, node, context):
 
 @value_node("ShaderNodeLayerWeight")
 def layer_weight(t, node, context, output):
+    seen_straight(t, node, context)
     blend = t.input(node, "Blend", context, 0.5)
     if output.identifier == "Fresnel":
         eta = (1.0 - blend).maximum(1e-5)
