@@ -82,7 +82,7 @@ LIGHTS = {
     "light falloff": Limit("Light falloffs of suns, several in one lamp, or with smoothing that varies", "suns stay even, the first one counts, unsmoothed"),
     "lamp's light path": Limit("Light Path in lamps: kinds of rays", "every ray counts as one of no kind, as those that light the scene"),
     "lamp's attribute": Limit("Attribute nodes in lamps: those of objects, instancers and view layers", "the value 0"),
-    "lamp's tangent": Limit("Tangents in lamps", "directions around their axis; Cycles' Geometry node makes them dark"),
+    "lamp's tangent": Limit("Tangents in lamps and worlds", "directions around the lamp's axis, 0 in worlds; Cycles' Geometry node makes both dark"),
     "aslant": Limit(
         "Area lamps that ask where they are seen from: Incoming, Reflection, Fresnel, Layer Weight", "all of their light is as seen straight on"
     ),

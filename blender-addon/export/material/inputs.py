@@ -123,6 +123,8 @@ def direction(t):
 
 def hit(t, what):
     """Position, Normal, GeometricNormal, Incoming (to where the ray came from) or FrontFacing of the hit."""
+    if t.is_world:
+        return t.graph.scalar(1.0) if what == "FrontFacing" else _world_geometry(t, what)
     if what == "Position":
         return t.position()
     if what == "Normal" and t.bent is not None:
@@ -139,6 +141,8 @@ def normal_of(t, node, context, name="Normal"):
 def geometry(t, node, context, output):
     name = output.identifier
     if t.is_world:
+        if name == "Tangent":
+            t.tell("lamp's tangent", node, context)
         return _world_geometry(t, name)
     simple = {"Position": "Position", "Normal": "Normal", "True Normal": "GeometricNormal", "Incoming": "Incoming"}
     if name == "Incoming":
@@ -166,7 +170,7 @@ def _world_geometry(t, name):
     """As if the sky were a point that looks back; it is of no mesh."""
     if name == "Position":
         return direction(t)
-    if name in ("Incoming", "Normal", "True Normal"):
+    if name in ("Incoming", "Normal", "True Normal", "GeometricNormal"):
         return -direction(t)
     return t.graph.vector((1.0, 0.0, 0.0)) if name == "Parametric" else t.graph.scalar(0.0)
 

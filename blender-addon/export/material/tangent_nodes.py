@@ -47,7 +47,7 @@ def of_mesh(t, name):
 
 @value_node("ShaderNodeTangent")
 def tangent(t, node, context, output):
-    if t.kind == "Light":
+    if t.kind != "Material":
         t.tell("lamp's tangent", node, context)
     if node.direction_type == "UV_MAP":
         return upright(t, tangent_of(t, node.uv_map or UV))
