@@ -52,11 +52,11 @@ OTHERS = """
 
 Without figures here, each with its bounds in the test:
 
-- shapes of lights under all of UsdLux's parameters against quadrature, by frame of luxtest's stages: `tests/usd/test_luxtest.py`
+- shapes of lights under all of UsdLux's parameters against quadrature, by frame of luxtest's stages: `tests/usd/light/test_luxtest.py`
 - sampling, density and value of every light at every SIMD level: `rust-core/light/src/tests`
 - closed forms of the film, the white furnace inside a shining box, absorbing glass: `tests/rust/analytic.rs`
 - readers and writers of photometric files, their bad input and their flux: `rust-core/formats/tests/photometry`
-- daylight from USD, the command line and Blender: `tests/usd/test_daylight_stage.py`, `tests/blender/test_export_daylight.py`
+- daylight from USD, the command line and Blender: `tests/usd/light/test_daylight_stage.py`, `tests/blender/test_export_daylight.py`
 - pictures of the same files in Cycles: `make compare-cycles`
 """
 

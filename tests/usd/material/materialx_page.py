@@ -1,10 +1,10 @@
-"""Writes the MaterialX part of docs/nodes.md: `python tests/usd/materialx_page.py`, with gonio, usd-core and materialx installed."""
+"""Writes the MaterialX part of docs/nodes.md: `python tests/usd/material/materialx_page.py`, with gonio, usd-core and materialx installed."""
 
 import sys
 import tempfile
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 PAGE = ROOT / "docs" / "nodes.md"
 sys.path[:0] = [str(Path(__file__).parent), str(ROOT / "tests" / "shared")]
 
@@ -12,9 +12,9 @@ import materialx_reference as reference  # noqa: E402
 import test_materialx_nodes as nodes  # noqa: E402
 
 KERNELS = "kernel within 6e-7 of the library's own (`rust-core/nodes/tests/noise`)"
-PLACES = "closed forms (`tests/usd/test_materialx_places.py`)"
+PLACES = "closed forms (`tests/usd/material/test_materialx_places.py`)"
 FLATTENED = "a graph of other nodes; its values are not measured"
-IMAGES = "pictures (`tests/usd/test_images.py`, `tests/usd/test_materials.py`)"
+IMAGES = "pictures (`tests/usd/material/test_images.py`, `tests/usd/material/test_materials.py`)"
 # How nodes are tested that cannot stand in a picture of values, or why they are not there.
 ELSEWHERE = {
     **dict.fromkeys(["noise2d", "noise3d", "fractal2d", "fractal3d", "cellnoise2d", "cellnoise3d", "worleynoise2d", "worleynoise3d"], KERNELS),
@@ -22,7 +22,7 @@ ELSEWHERE = {
     **dict.fromkeys(["position", "normal", "tangent", "bitangent", "texcoord", "geompropvalue", "geompropvalueuniform", "geomcolor"], PLACES),
     **dict.fromkeys(["transformpoint", "transformvector", "transformnormal", "normalmap", "bump", "heighttonormal", "viewdirection"], PLACES),
     **dict.fromkeys(["image", "tiledimage", "latlongimage", "triplanarprojection", "hextiledimage"], IMAGES),
-    **dict.fromkeys(["time", "frame"], "constants of the frame (`tests/usd/test_materials.py`)"),
+    **dict.fromkeys(["time", "frame"], "constants of the frame (`tests/usd/material/test_materials.py`)"),
     **dict.fromkeys(["tiledcircles", "tiledcloverleafs", "tiledhexagons", "gooch_shade"], FLATTENED),
 }
 ABSENT = {
@@ -64,7 +64,7 @@ def main():
         f"Pattern nodes of MaterialX's standard library, by category: **{exact} of {len(found)}** are exact. Values are held to the library's own",
         f"definitions, evaluated in double precision, at {nodes.PLACES} places a definition; the largest difference is a share of one and the value.",
         "What is *tested* has tests of another kind, what is *flattened* is put together from nodes of this table as the library says.",
-        "This part is written by `python tests/usd/materialx_page.py`.",
+        "This part is written by `python tests/usd/material/materialx_page.py`.",
         "",
         "| node | definitions | state | how tested, largest difference |",
         "| --- | --- | --- | --- |",

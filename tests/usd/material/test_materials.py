@@ -24,7 +24,7 @@ def Mesh "Mesh" (prepend apiSchemas = ["MaterialBindingAPI"])
 
 
 def shared(*parts):
-    root = pathlib.Path(os.environ.get("GONIO_SHARED", pathlib.Path(__file__).resolve().parents[2].parent / "shared"))
+    root = pathlib.Path(os.environ.get("GONIO_SHARED", pathlib.Path(__file__).resolve().parents[3].parent / "shared"))
     path = root.joinpath("data", "usd", *parts)
     if not path.exists():
         pytest.skip(f"{path} is not there")

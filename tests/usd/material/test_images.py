@@ -12,7 +12,7 @@ pytest.importorskip("pxr")
 
 from pxr import Gf, Sdf  # noqa: E402
 
-FILES = pathlib.Path(__file__).with_name("images")
+FILES = pathlib.Path(__file__).parents[1] / "images"
 HEADER = '#usda 1.0\n(\n    metersPerUnit = 1\n    upAxis = "Y"\n)\n'
 PIXELS = 16
 SQUARE = """

@@ -12,7 +12,7 @@ HEADER = '#usda 1.0\n(\n    metersPerUnit = {metres}\n    upAxis = "{up}"\n)\n'
 
 
 def shared(*parts):
-    root = pathlib.Path(os.environ.get("GONIO_SHARED", pathlib.Path(__file__).resolve().parents[2].parent / "shared"))
+    root = pathlib.Path(os.environ.get("GONIO_SHARED", pathlib.Path(__file__).resolve().parents[3].parent / "shared"))
     path = root.joinpath("data", "usd", *parts)
     if not path.exists():
         pytest.skip(f"{path} is not there")

@@ -16,7 +16,7 @@ from pxr import UsdShade  # noqa: F401
 
 HEADER = '#usda 1.0\n(\n    metersPerUnit = 1\n    upAxis = "Y"\n)\n'
 BALL = 'def Sphere "Ball" (prepend apiSchemas = ["MaterialBindingAPI"])\n{\n    double radius = 1\n    rel material:binding = </M>\n}\n'
-SHARED = pathlib.Path(os.environ.get("GONIO_SHARED", pathlib.Path(__file__).parents[3] / "shared"))
+SHARED = pathlib.Path(os.environ.get("GONIO_SHARED", pathlib.Path(__file__).parents[4] / "shared"))
 ASSETS = SHARED / "data" / "usd" / "wg-assets"
 
 
@@ -198,7 +198,7 @@ def test_patterns_that_are_graphs_are_put_together(tmp_path):
 
 
 def test_hexagons_of_one_colour_are_that_colour(tmp_path):
-    image = pathlib.Path(__file__).with_name("images") / "no_chunk.png"
+    image = pathlib.Path(__file__).parents[1] / "images" / "no_chunk.png"
     body = f'asset inputs:file = @{image}@ (colorSpace = "raw")\n        float2 inputs:tiling = (7, 7)\n        float inputs:falloff = 0.7'
     scene = load(
         tmp_path,
