@@ -56,7 +56,7 @@ Without figures here, each with its bounds in the test:
 - sampling, density and value of every light at every SIMD level: `rust-core/light/src/tests`
 - closed forms of the film, the white furnace inside a shining box, absorbing glass: `tests/rust/analytic.rs`
 - readers and writers of photometric files, their bad input and their flux: `rust-core/formats/tests/photometry`
-- daylight from USD, the command line and Blender: `tests/usd/light/test_daylight_stage.py`, `tests/blender/test_export_daylight.py`
+- daylight from USD, the command line and Blender: `tests/usd/light/test_daylight_stage.py`, `tests/blender/export/light/test_export_daylight.py`
 - pictures of the same files in Cycles: `make compare-cycles`
 """
 

@@ -90,7 +90,7 @@ def test_edits_of_280_thousand_triangles():
 @pytest.mark.validate
 @pytest.mark.blender(seconds=900)
 def test_moving_one_of_20_thousand_instances():
-    from test_export_mesh import scattered
+    from recorder import scattered
 
     data, scene = prepared()
     scattered(unit(data))

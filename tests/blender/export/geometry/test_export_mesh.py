@@ -206,30 +206,10 @@ def test_280_thousand_triangles_within_60_ms(tmp_path):
     assert taken < 0.06
 
 
-def scattered(mesh):
-    """Puts a mesh on each of 142 × 142 points by geometry nodes."""
-    import bpy
-    from recorder import link
-
-    points = bpy.data.meshes.new("Points")
-    points.from_pydata([(x - 71, y - 71, 0) for x in range(142) for y in range(142)], [], [])
-    field, thing = link(bpy.data.objects.new("Field", points)), link(bpy.data.objects.new("Thing", mesh))
-    tree = bpy.data.node_groups.new("Scatter", "GeometryNodeTree")
-    tree.interface.new_socket("Geometry", in_out="INPUT", socket_type="NodeSocketGeometry")
-    tree.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
-    start, stop = tree.nodes.new("NodeGroupInput"), tree.nodes.new("NodeGroupOutput")
-    scatter, chosen = tree.nodes.new("GeometryNodeInstanceOnPoints"), tree.nodes.new("GeometryNodeObjectInfo")
-    chosen.inputs["Object"].default_value, chosen.inputs["As Instance"].default_value = thing, True
-    tree.links.new(start.outputs[0], scatter.inputs["Points"])
-    tree.links.new(chosen.outputs["Geometry"], scatter.inputs["Instance"])
-    tree.links.new(scatter.outputs[0], stop.inputs[0])
-    field.modifiers.new("Scatter", "NODES").node_group = tree
-
-
 @pytest.mark.validate
 @pytest.mark.blender
 def test_20_thousand_instances_within_60_ms(tmp_path):
-    from recorder import depsgraph, empty, exporter, quad
+    from recorder import depsgraph, empty, exporter, quad, scattered
 
     empty()
     scattered(quad())

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-PAGE = Path(__file__).resolve().parents[2] / "docs" / "blender.md"
+PAGE = Path(__file__).resolve().parents[3] / "docs" / "blender.md"
 
 
 @pytest.mark.blender
