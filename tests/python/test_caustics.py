@@ -100,7 +100,7 @@ def test_layers_scatter_into_the_same_passes_both_ways():
     low = math.radians(20.0)
     matrix = [[1, 0, 0, 0], [0, math.cos(low), math.sin(low), 0.5], [0, -math.sin(low), math.cos(low), 2.0], [0, 0, 0, 1]]
     scene.add_camera(matrix, fov=6)
-    held(scene, ["color", *SHARES], (128, 3072), 0.02)
+    held(scene, ["color", *SHARES], (128, 2048), 0.03)
 
 
 def underside(caustics):
