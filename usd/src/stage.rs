@@ -128,6 +128,24 @@ impl Stage {
         self.object.bind(py)
     }
 
+    /// Whether a file is a layer that the stage is made of.
+    ///
+    /// # Errors
+    /// Exceptions of the USD library.
+    pub fn is_made_of(&self, py: Python<'_>, file: &Path) -> Result<bool> {
+        let Ok(file) = file.canonicalize() else { return Ok(false) };
+        let is_one = || -> PyResult<bool> {
+            for layer in self.object(py).call_method0("GetUsedLayers")?.try_iter()? {
+                let path: String = layer?.getattr("realPath")?.extract()?;
+                if Path::new(&path).canonicalize().is_ok_and(|path| path == file) {
+                    return Ok(true);
+                }
+            }
+            Ok(false)
+        };
+        is_one().map_err(|error| unreadable(py, &self.path, &error))
+    }
+
     /// Reads the stage at a time. `cancel` is looked at once a prim and inside subdivision.
     ///
     /// # Errors

@@ -52,6 +52,12 @@ pub(super) fn map(py: Python<'_>, options: &MapArguments, interrupted: &'static 
     let mut stage_options = stage_options(&options.stage)?;
     stage_options.time = options.frame.map_or(SampleTime::Start, SampleTime::Code);
     let stage = Stage::open(py, &options.stage.stage, &stage_options)?;
+    for path in &options.output {
+        if stage.is_made_of(py, path)? {
+            let problem = format!("{} is a layer of the stage that is measured; write the map beside it", path.display());
+            return Err(Error::setting("output", problem));
+        }
+    }
     let loaded = stage.load(py, &stage_options, interrupted)?;
     py.detach(|| run(options, &wanted, quantity, loaded, &stage, interrupted))
 }
