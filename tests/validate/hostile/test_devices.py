@@ -131,12 +131,7 @@ OWN_INPUTS = {
 REPLACED = {"texture by its picture", "lamp's file by its measurement", "lamp's file by its conversion", "picture relit"}
 
 
-# What `gonio map` writes over, though it has read it.
-WRITTEN_OVER = {"stage by its map", "stage by another path", "stage by a link", "layer by its map"}
-WRITES_OVER = pytest.mark.xfail(strict=True, reason="`gonio map -o` takes a layer of the stage that it reads as its target and writes over it")
-
-
-@pytest.mark.parametrize("name", [pytest.param(name, marks=WRITES_OVER if name in WRITTEN_OVER else ()) for name in OWN_INPUTS])
+@pytest.mark.parametrize("name", OWN_INPUTS)
 def test_an_input_as_output(run, folder, name):
     line, kept = OWN_INPUTS[name]
     (folder / "again").mkdir()
