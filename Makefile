@@ -126,10 +126,14 @@ fuzz:
 	cargo build --release --quiet -p gonio-formats --example fuzz
 	for reader in $(FUZZED); do cargo run --release --quiet -p gonio-formats --example fuzz -- $$reader 600 || exit 1; done
 
-# The long checks: all luxtest frames, kill tests, other renderers where they can be had, Blender's export timed.
+# The long checks: all luxtest frames, kill tests, other renderers where they can be had, Blender's export timed. Suites whose files have the same names
+# run one after the other.
+LONG := -m "validate or not validate" --timeout 1800
 validate: test-blender compare-cycles validation fuzz
-	$(BIN)/python -m pytest tests/python tests/usd tests/cli tests/validate tests/peers tests/blender -m "validate or not validate" --timeout 1800 \
-	    --ignore tests/blender/compare_cycles --ignore tests/validate/lighting --ignore tests/validate/goniometer --ignore tests/blender/test_lamps_lux.py
+	$(BIN)/python -m pytest tests/python tests/usd tests/cli $(LONG)
+	$(BIN)/python -m pytest tests/validate $(LONG) --ignore tests/validate/lighting --ignore tests/validate/goniometer
+	$(BIN)/python -m pytest tests/peers $(LONG)
+	$(BIN)/python -m pytest tests/blender $(LONG) --ignore tests/blender/compare_cycles --ignore tests/blender/test_lamps_lux.py
 	cargo test --release --quiet --workspace --exclude gonio-python -- --include-ignored
 
 # Two builds, each by the Python that has it, show twelve scenes with the same bits at every SIMD level.
