@@ -19,25 +19,13 @@ from .motion import shares_of
 from .transforms import columns, without_scale
 from .visibility import RAYS
 
-# Parts of a lamp's radius along each axis from one of its lights to the next.
-APART = 1e-3
-
 
 def describe(group, place, images, report):
     """The descriptions of one lamp at the place of a number: one, or one a part of its pattern."""
     lamp, matrix = group.data, group.matrices[place]
     is_photometric = luminaire.is_photometric(lamp)
     parts = parts_of(lamp, matrix, images, report, has_pattern=not is_photometric and not is_portal(lamp))
-    return [_apart(_described(group, place, images, report, part), number) for number, part in enumerate(parts)]
-
-
-def _apart(description, number):
-    """A part of a lamp, a little away from those before it: of lights in one place a ray meets the first alone."""
-    shape = description["shape"]
-    if isinstance(shape, dict) and "radius" in (fields := next(iter(shape.values()))):
-        place = description["transform"]["columns"][3]
-        description["transform"]["columns"][3] = [x + number * APART * fields["radius"] for x in place]
-    return description
+    return [_described(group, place, images, report, part) for part in parts]
 
 
 def _described(group, place, images, report, part):

@@ -86,6 +86,20 @@ pub(crate) struct Beyond {
     passed: Passed,
 }
 
+impl Beyond {
+    /// Of a ray that has passed something and has a hit.
+    #[inline(always)]
+    pub(crate) fn new(hit: Hit, passed: Passed) -> Self {
+        Self { nearest: Nearest(hit), passed }
+    }
+
+    /// The nearest hit so far.
+    #[inline(always)]
+    pub(crate) fn nearest(&self) -> Hit {
+        self.nearest.0
+    }
+}
+
 impl HitCallback for Beyond {
     const ORDERED: bool = true;
 

@@ -5,9 +5,9 @@
 
 use super::instance::{Geometry, Instance};
 use super::tlas::Tlas;
-use crate::hit_callback::Nearest;
+use crate::hit_callback::Beyond;
 use crate::intersect::shape::Shape;
-use crate::ray::{Covered, Hits, NONE, RayBatch};
+use crate::ray::{Covered, Hits, NONE, Passed, RayBatch};
 use gonio_simd::{Execution, Lanes, Vec3, dispatch};
 
 /// More shapes than this stand in the tree.
@@ -89,13 +89,15 @@ impl Tlas {
             return;
         }
         let before = hits.get(i);
-        let mut nearest = Nearest(before);
-        record.intersect_shape(shape, rays.origin_of(i), rays.direction_of(i), rays.t_min[i].max(0.0), &mut nearest);
-        if nearest.0 != before {
+        let passed = rays.passed.get(i).copied().unwrap_or(Passed::NOTHING);
+        let mut beyond = Beyond::new(before, passed);
+        record.intersect_shape(shape, rays.origin_of(i), rays.direction_of(i), rays.t_min[i].max(0.0), &mut beyond);
+        let nearest = beyond.nearest();
+        if nearest != before {
             if before.instance < self.records[self.loose_lights[0].record as usize].id || before.instance == NONE {
                 hits.covered.push(Covered { ray: i as u32, hit: before });
             }
-            hits.set(i, &nearest.0);
+            hits.set(i, &nearest);
         }
     }
 }

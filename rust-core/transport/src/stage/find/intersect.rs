@@ -4,7 +4,7 @@ use crate::state::nearest::NearestHits;
 use crate::state::paths::Paths;
 use crate::tables::Tables;
 use crate::tables::transport::Transport;
-use gonio_accel::NONE;
+use gonio_accel::{NONE, Passed};
 use gonio_simd::{Lanes, M, PADDING, U, dispatch};
 
 /// Finds the surface that every path hits, and notes the shapes of lights before it.
@@ -63,16 +63,21 @@ fn pass_through_lights(tables: &Tables, transport: &Transport, paths: &mut Paths
     let NearestHits { hits, escaped, at_lights, behind_rays, behind, .. } = nearest;
     for path in at_lights.iter() {
         let i = *path as usize;
-        // Far enough that the same shape is not met again, near enough that nothing behind it is lost.
-        paths.rays.t_min[i] = (hits.t[i] * (1.0 + 1e-6)).next_up();
+        paths.rays.t_min[i] = hits.t[i].next_down();
     }
     behind_rays.select(&paths.rays, at_lights);
+    // Lights at the same place are met one after the other, each once.
+    for (passed, path) in behind_rays.passed.of_first(at_lights.len()).iter_mut().zip(&*at_lights) {
+        let i = *path as usize;
+        *passed = Passed { t: hits.t[i], instance: hits.instance[i], primitive: hits.primitive[i], on_edge: 0 };
+    }
     let rays = behind_rays.batch(0..at_lights.len());
     if tables.bvh.has_loose_lights() {
         tables.bvh.first_hit_before(transport.execution, &rays, &hits.covered, behind);
     } else {
         tables.bvh.first_hit(transport.execution, &rays, false, behind);
     }
+    behind_rays.passed.clear();
     std::mem::swap(&mut hits.covered, &mut behind.covered);
     for (from, to) in at_lights.iter().enumerate() {
         let to = *to as usize;
