@@ -2,6 +2,8 @@
 
 import pytest
 
+pytestmark = [pytest.mark.validate, pytest.mark.timeout(1800)]
+
 # Outputs by the node's type.
 OUTPUTS = {
     "NewGeometry": ("Position", "Normal", "Tangent", "True Normal", "Incoming", "Parametric", "Backfacing", "Pointiness", "Random Per Island"),
