@@ -157,3 +157,18 @@ def test_meters_within_are_dimmed_by_what_they_stand_in():
     # Full from half a metre below the meter to 2.5 m above it; absorption weighs as luminance does.
     weights = np.array((0.2126, 0.7152, 0.0722))
     assert lamp_over((0, -0.5, 0)) / lamp_over(None) == pytest.approx(float(weights @ left(2.5)), rel=5e-3)
+
+
+@pytest.mark.parametrize("integrator", ["path", "whitted"])
+def test_thin_walls_enclose_nothing(integrator):
+    """A sheet that is tinted once tints nothing that lies behind it once more."""
+    seen_through = []
+    for depth in (0.0, 0.01):
+        scene = shining_floor(integrator=integrator)
+        sheet = scene.add_material(
+            "sheet", thin_walled=True, transmission_weight=1.0, transmission_color=(0.5,) * 3, transmission_depth=depth, specular_roughness=0.0
+        )
+        scene.add_instance(scene.add_mesh(FLOOR, QUAD), [sheet], transform=at(0, 1, 0))
+        seen_through.append(seen(scene))
+    assert seen_through[0].min() > 0.3
+    assert np.allclose(*seen_through, rtol=1e-3)

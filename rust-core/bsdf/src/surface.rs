@@ -100,6 +100,9 @@ impl Surface {
     /// Absorption coefficient of the inside, 1/m: the transmission colour is what is left of white light after the transmission depth.
     #[inline(always)]
     pub fn absorption<L: Lanes>(&self, l: L, values: &ParameterValues, at: usize) -> Spectrum<L> {
+        if self.switches.thin_walled || !self.lobes.transmission {
+            return Spectrum::zero(l);
+        }
         let depth = values.get(l, p::TRANSMISSION_DEPTH, at);
         let colour = values.reflectance(l, p::TRANSMISSION_COLOR, at).saturate().max(1e-6);
         let rate = (-depth.max(1e-9).recip()).keep_if(depth.gt(0.0));

@@ -18,7 +18,8 @@ fn light(colour: [f32; 3]) -> Spectrum<One> {
 fn near(found: Spectrum<One>, right: impl Fn(usize) -> f64, what: &str) {
     let found = found.to_rgb();
     for (c, found) in [found.r.0, found.g.0, found.b.0].into_iter().enumerate() {
-        assert!((f64::from(found) / right(c) - 1.0).abs() < 1e-5, "{what}: {found} for {}", right(c));
+        // What sums leave of media that were left is taken off as a hundred thousandth of them.
+        assert!((f64::from(found) / right(c) - 1.0).abs() < 1e-4, "{what}: {found} for {}", right(c));
     }
 }
 

@@ -10,7 +10,7 @@ use crate::stage::shade::shading::{add_seen, guide_and_measure};
 use crate::stage::shade::straight::straight_on;
 use crate::state::chunk::ChunkContext;
 use crate::state::path_core::PathCore;
-use crate::state::paths::Paths;
+use crate::state::paths::{PathLanes, Paths};
 use crate::state::queue::Queues;
 use crate::state::queue::branches::Branches;
 use crate::state::queue::shadow_rays::ShadowRays;
@@ -166,7 +166,12 @@ fn branch<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, ray: &Branch
     let straight = chunk.l.m(way == Way::Straight);
     let media = point.media_towards(across, straight, chunk.tables.any_volume);
     let core = PathCore { throughput, width, flags: flags(chunk, point, way), counts: point.core.counts + counted, media, ..point.core };
-    branches.ways[way as usize].append(&point.go_on(ray, share, core).having_passed(passed), alive);
+    let path = match way {
+        // What it finds is still seen from the vertex before.
+        Way::Straight => PathLanes::start(ray, core).leaving(chunk.paths.previous(chunk.l, point.path), share),
+        _ => point.go_on(ray, share, core),
+    };
+    branches.ways[way as usize].append(&path.having_passed(passed), alive);
 }
 
 /// Which rays are followed, and with which throughput. For guides of denoisers Russian roulette decides: a lamp on a faint specular path may

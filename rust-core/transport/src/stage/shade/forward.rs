@@ -90,11 +90,13 @@ impl Integrator for LightIntegrator<'_> {
         let ChunkContext { l, transport, sample: context, .. } = *chunk;
         let clear = l.gather(&queues.light_paths.starts.clear, point.core.slot);
         point.alive &= point.bounces.ne(0) | l.gather(&chunk.hits.t, point.path).ge(clear);
-        if !chunk.tables.links.receivers.is_empty() {
-            // What a light does not light stays dark where its light arrives first.
+        // What a light does not light stays dark where its light arrives first; what goes straight on there does not arrive.
+        let lit = if chunk.tables.links.receivers.is_empty() {
+            l.m(true)
+        } else {
             let light = l.gather_integers(&queues.light_paths.starts.light, point.core.slot);
-            point.alive &= point.bounces.ne(0) | chunk.tables.lights.sees(l, point.at.receiver, light);
-        }
+            point.bounces.ne(0) | chunk.tables.lights.sees(l, point.at.receiver, light)
+        };
         let index = context.index(l, point.core.slot);
         let base = context.dimension(0);
         let [u_lobe, u_opacity] = context.sampler.pair(l, index, base + dimension::LOBE);
@@ -103,8 +105,8 @@ impl Integrator for LightIntegrator<'_> {
         point.all_delta = all_delta;
         let noted = match self.wanted.arrivals {
             Arriving::No => l.m(false),
-            Arriving::All => present,
-            Arriving::Photons => present.and_not(all_delta),
+            Arriving::All => present & lit,
+            Arriving::Photons => (present & lit).and_not(all_delta),
         };
         if noted.any() && !material.surface.lobes.straight {
             arrive(chunk, point, noted, at, queues);
@@ -120,7 +122,7 @@ impl Integrator for LightIntegrator<'_> {
         let mut room = Lobes::empty(l);
         let going_on = present & point.bounces.lt(transport.limits.max_bounces + 1) & transport.limits.allow(point.core.counts);
         if let Some(picture) = &self.wanted.picture {
-            let seen = (going_on & non_specular & (point.bounces.ne(0) | l.m(!self.wanted.specular_only))).and_not(hidden(chunk, point));
+            let seen = (going_on & lit & non_specular & (point.bounces.ne(0) | l.m(!self.wanted.specular_only))).and_not(hidden(chunk, point));
             if seen.any() && !material.holdout {
                 connect(chunk, material, point, (&light, lobes), seen, picture, &mut room, queues);
             }
@@ -147,7 +149,7 @@ impl Integrator for LightIntegrator<'_> {
         }
         let [_, u_roulette] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
         let ending = if material.transparent { present.and_not(going_on) } else { l.m(false) };
-        let masks = [going_on & goes, ending];
+        let masks = [going_on & goes & (lit | sample.straight), ending];
         send_on(chunk, point, lobes, (&sample, factor), u_roulette, masks, &mut queues.next, &mut queues.walks);
     }
 

@@ -217,6 +217,7 @@ pub(crate) fn send_on<L: Lanes>(
         let before = chunk.paths.previous(l, point.path);
         from.position = straight.select(before.position, from.position);
         from.normal = straight.select(before.normal, from.normal);
+        from.receiver = straight.select(before.receiver, from.receiver);
         pdf = straight.select(point.pdf, pdf);
         let on = straight_on(chunk, point);
         (ray, width, passed) = (ray.or(straight, &on.ray), straight.select(on.width, width), Some(on.passed.only(straight)));

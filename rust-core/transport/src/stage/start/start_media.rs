@@ -152,9 +152,6 @@ fn look_up_chunk<L: Lanes>(l: L, tables: &Tables, chunk: MaterialHits<'_>, room:
 fn add_inside<L: Lanes>(l: L, tables: &Tables, mut closure: ClosureHits<'_>, sums: &mut SpectrumColumns) {
     let material = &tables.materials.surfaces[closure.surface];
     closure.run(l, tables, &material.program);
-    if material.surface.switches.thin_walled || !material.surface.lobes.transmission {
-        return;
-    }
     let values = parameter_values(material, &closure.columns.outputs);
     for at in (0..closure.hits.len()).step_by(L::COUNT) {
         let mut inside = material.surface.absorption(l, &values, at);
