@@ -28,16 +28,16 @@ build: $(VENV)/ready
 	$(BIN)/maturin build --release --quiet --compatibility linux --out dist/here
 	$(BIN)/python -m pip install --quiet --force-reinstall --no-deps dist/here/*.whl
 
-# The quick build into .venv: this machine's own SIMD level alone; Python sources are used where they stand.
+# The quick build into .venv: the scalar level and this machine's own one; Python sources are used where they stand.
 dev: $(VENV)/ready
 	$(BIN)/maturin develop --profile quick --features gonio-simd/own-level --quiet
 
-# The tests of one crate (CRATE=gonio-bsdf), or of those over the public API, optimised as the quick build is, with the scalar level to compare with.
+# The tests of one crate (CRATE=gonio-bsdf), or of those over the public API, from the quick build.
 CRATE ?= gonio-tests
 test-quick:
-	cargo test --profile quick --features gonio-simd/own-level,gonio-simd/scalar-level --quiet -p $(CRATE)
+	cargo test --profile quick --features gonio-simd/own-level --quiet -p $(CRATE)
 
-# The quick build has this machine's SIMD level alone; `make test` builds the wheel with all of them.
+# The quick build has this machine's SIMD level and the scalar one; `make test` builds the wheel with all of them.
 render: dev
 	mkdir -p out
 	$(BIN)/gonio render examples/usd/office.usda -o out/office.exr -o out/office.png --aov color,luminance,illuminance --spp 16 --denoise --exposure 0.7

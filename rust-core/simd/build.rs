@@ -4,7 +4,6 @@ use std::env;
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
-    println!("cargo::rustc-check-cfg=cfg(no_scalar)");
     println!("cargo::rustc-check-cfg=cfg(only_level, values(none(), \"avx512\", \"avx2\", \"sse4.2\"))");
     // A machine can tell its own level alone.
     if env::var_os("CARGO_FEATURE_OWN_LEVEL").is_some() && env::var("TARGET") == env::var("HOST") {
@@ -22,9 +21,6 @@ fn own_level() {
     };
     println!("cargo::rustc-cfg=only_level");
     println!("cargo::rustc-cfg=only_level=\"{level}\"");
-    if env::var_os("CARGO_FEATURE_SCALAR_LEVEL").is_none() {
-        println!("cargo::rustc-cfg=no_scalar");
-    }
 }
 
 #[cfg(not(target_arch = "x86_64"))]

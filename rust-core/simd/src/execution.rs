@@ -48,7 +48,7 @@ impl Execution {
             .ok_or_else(|| UnknownLevel { name: name.to_owned(), available: all.iter().map(Self::name).collect() })
     }
 
-    /// Every level that this machine and this build have, best first, the scalar one last.
+    /// Every level that this machine has, best first, the scalar one last.
     pub fn all() -> Vec<Self> {
         let best = Level::new();
         let mut all = Vec::new();
@@ -61,18 +61,8 @@ impl Execution {
         if all.is_empty() {
             all.push(Self::Vector(best));
         }
-        if cfg!(not(no_scalar)) {
-            all.push(Self::Scalar);
-        }
+        all.push(Self::Scalar);
         all
-    }
-
-    /// The machine's registers; those of the best level where one value at a time was asked for.
-    pub fn level(&self) -> Level {
-        match self {
-            Self::Scalar => Level::new(),
-            Self::Vector(level) => *level,
-        }
     }
 
     /// The level's name as `GONIO_SIMD` takes it.
@@ -104,7 +94,6 @@ impl Execution {
 /// Calls a kernel for an [`Execution`]: `dispatch!(execution, l => kernel(l, arguments))`.
 ///
 /// The expression is compiled once for each level, so it should be a single call; `return` and `?` inside it do not leave the caller.
-#[cfg(not(no_scalar))]
 #[macro_export]
 macro_rules! dispatch {
     ($execution:expr, $lanes:ident => $call:expr) => {
@@ -119,19 +108,6 @@ macro_rules! dispatch {
             }),
         }
     };
-}
-
-/// As above, where no scalar level is built.
-#[cfg(no_scalar)]
-#[macro_export]
-macro_rules! dispatch {
-    ($execution:expr, $lanes:ident => $call:expr) => {{
-        let level = $crate::Execution::level(&$execution);
-        $crate::dispatch_level!(level, simd => {
-            let $lanes = $crate::Wide(simd);
-            $call
-        })
-    }};
 }
 
 /// Calls code for a level of `fearless_simd`: `dispatch_level!(level, simd => call(simd, arguments))`; with the feature `own-level` it is
