@@ -122,7 +122,8 @@ impl Integrator for LightIntegrator<'_> {
         let mut room = Lobes::empty(l);
         let going_on = present & point.bounces.lt(transport.limits.max_bounces + 1) & transport.limits.allow(point.core.counts);
         if let Some(picture) = &self.wanted.picture {
-            let seen = (going_on & lit & non_specular & (point.bounces.ne(0) | l.m(!self.wanted.specular_only))).and_not(hidden(chunk, point));
+            let seen =
+                (going_on & lit & non_specular & (point.bounces.ne(0) | l.m(!self.wanted.specular_only))).and_not(hidden(chunk, point));
             if seen.any() && !material.holdout {
                 connect(chunk, material, point, (&light, lobes), seen, picture, &mut room, queues);
             }
