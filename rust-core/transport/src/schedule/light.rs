@@ -137,7 +137,7 @@ impl LightTracer<'_> {
         let time = Instant::now();
         ws.statistics.rays += ws.paths.count as u64;
         ws.paths.set_times(&ws.times);
-        find_surfaces(tables, transport, &mut ws.paths, &mut ws.nearest);
+        find_surfaces(tables, transport, &ws.paths, &mut ws.nearest);
         receiver.travelled(&Segments::new(&ws.paths, &ws.nearest.hits, &ws.queues.light_paths.starts));
         let light_paths = &mut ws.queues.light_paths;
         (light_paths.arrivals.count, light_paths.escapes.count) = (0, 0);

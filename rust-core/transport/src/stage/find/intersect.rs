@@ -8,7 +8,7 @@ use gonio_accel::{NONE, Passed};
 use gonio_simd::{Lanes, M, PADDING, U, dispatch};
 
 /// Finds the surface that every path hits, and notes the shapes of lights before it.
-pub(crate) fn find(tables: &Tables, transport: &Transport, depth: u32, paths: &mut Paths, nearest: &mut NearestHits) {
+pub(crate) fn find(tables: &Tables, transport: &Transport, depth: u32, paths: &Paths, nearest: &mut NearestHits) {
     find_first(tables, transport, depth == 0, paths, nearest);
     dispatch!(transport.execution, l => classify(l, tables, nearest));
     nearest.lights.clear();
@@ -19,7 +19,7 @@ pub(crate) fn find(tables: &Tables, transport: &Transport, depth: u32, paths: &m
 }
 
 /// Finds the surface that every light path hits: lights are passed, and send nothing.
-pub(crate) fn find_surfaces(tables: &Tables, transport: &Transport, paths: &mut Paths, nearest: &mut NearestHits) {
+pub(crate) fn find_surfaces(tables: &Tables, transport: &Transport, paths: &Paths, nearest: &mut NearestHits) {
     tables.bvh.first_hit_in_tree(transport.execution, &paths.rays.batch(0..paths.count), false, &mut nearest.hits);
     dispatch!(transport.execution, l => classify(l, tables, nearest));
     // Many lights stand in the tree.
@@ -59,16 +59,14 @@ fn classify<L: Lanes>(l: L, tables: &Tables, nearest: &mut NearestHits) {
 }
 
 /// Takes paths on behind the shapes of lights, which block nothing. With loose lights the hit behind was found before; else it is traced.
-fn pass_through_lights(tables: &Tables, transport: &Transport, paths: &mut Paths, nearest: &mut NearestHits) {
+fn pass_through_lights(tables: &Tables, transport: &Transport, paths: &Paths, nearest: &mut NearestHits) {
     let NearestHits { hits, escaped, at_lights, behind_rays, behind, .. } = nearest;
-    for path in at_lights.iter() {
-        let i = *path as usize;
-        paths.rays.t_min[i] = hits.t[i].next_down();
-    }
     behind_rays.select(&paths.rays, at_lights);
     // Lights at the same place are met one after the other, each once.
-    for (passed, path) in behind_rays.passed.of_first(at_lights.len()).iter_mut().zip(&*at_lights) {
+    let passed = behind_rays.passed.of_first(at_lights.len());
+    for ((t_min, passed), path) in behind_rays.t_min.iter_mut().zip(passed).zip(&*at_lights) {
         let i = *path as usize;
+        *t_min = hits.t[i].next_down();
         *passed = Passed { t: hits.t[i], instance: hits.instance[i], primitive: hits.primitive[i], on_edge: 0 };
     }
     let rays = behind_rays.batch(0..at_lights.len());
