@@ -3,20 +3,12 @@
 import gonio
 import numpy as np
 import pytest
-from small_scenes import FLOOR, QUAD, above, at, finished
+from small_scenes import FLOOR, QUAD, above, at, closure, finished
 
 ABSORPTION = (0.3, 0.8, 1.5)
 CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (0, 1) for z in (-1, 1)], "f4")
 SIDES = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
 BOX = np.array([half for a, b, c, d in SIDES for half in ((a, b, c), (a, c, d))], "i4")
-
-
-def constant(value):
-    return {"Constant": [*(value if isinstance(value, tuple) else (value,) * 3), 1.0]}
-
-
-def closure(model, **parameters):
-    return {"weight": constant(1.0), "model": model, "parameters": [[name, constant(value)] for name, value in parameters.items()]}
 
 
 def filled(scene, *places, stretch=(1, 1, 1), closures=(), absorption=ABSORPTION):

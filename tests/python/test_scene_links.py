@@ -3,6 +3,7 @@
 import gonio
 import numpy as np
 import pytest
+from small_scenes import closure
 
 
 def scene() -> tuple[gonio.Scene, int]:
@@ -61,37 +62,32 @@ def test_what_is_refused(keywords, message):
         scene()[0].link(**keywords)
 
 
-def through_a_pane(integrator, material, receivers):
-    """A floor under a panel, with a ball that shines and a pane of a material between, seen from above; the lamps light the receivers alone."""
+def through_a_pane(integrator, *closures):
+    """A floor under a panel, with a ball that shines and a pane of these closures between, seen from above; the lamps light the floor alone."""
     made = gonio.Scene()
     quad = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], np.float32)
     mesh = made.add_mesh(quad, np.array([[0, 1, 2], [0, 2, 3]], np.int32))
     white = made.add_material("white", base_color=0.8, specular_weight=0.0)
     at = lambda z, size=1.0: [[size, 0, 0, 0], [0, size, 0, 0], [0, 0, 1, z], [0, 0, 0, 1]]  # noqa: E731
     made.put_instances(mesh, [white], np.array([at(0.0)]))
-    if material is not None:
-        made.put_instances(mesh, [made.put_material(material)], np.array([at(0.6, 3.0)]))
+    if closures:
+        pane = made.put_material({"origin": "pane", "closures": list(closures)})
+        made.put_instances(mesh, [pane], np.array([at(0.6, 3.0)]))
     ball = made.add_light("sphere", (50.0,) * 3, radius=0.2, transform=at(0.3))
     panel = made.add_light("rectangle", (1.0,) * 3, width=4.0, height=4.0, transform=at(1.2), visible=False)
     for lamp in (ball, panel):
-        made.link(light=lamp, receivers=receivers)
+        made.link(light=lamp, receivers=[0])
     made.add_camera(at(9.0), fov=10)
     made.set(width=24, height=24, samples=256, max_bounces=1, passes=["color"], integrator=integrator, filter="box", filter_width=1.0)
     return colour(made)
 
 
-def closure(model, **parameters):
-    constant = lambda value: {"Constant": [value, value, value, 1.0]}  # noqa: E731
-    parameters = [[name, constant(value)] for name, value in parameters.items()]
-    return {"origin": model, "closures": [{"weight": constant(1.0), "model": model, "parameters": parameters}]}
-
-
 @pytest.mark.parametrize("integrator", ["path", "whitted", "light"])
 def test_panes_that_lamps_do_not_light_hide_nothing(integrator):
-    open_air = through_a_pane(integrator, None, [0])
-    clear = through_a_pane(integrator, closure("Transparent", base_color=1.0), [0])
-    half = through_a_pane(integrator, closure("Transparent", base_color=0.5), [0])
-    cut_out = through_a_pane(integrator, closure("OpenPbr", geometry_opacity=0.0), [0])
+    open_air = through_a_pane(integrator)
+    clear = through_a_pane(integrator, closure("Transparent", base_color=1.0))
+    half = through_a_pane(integrator, closure("Transparent", base_color=0.5))
+    cut_out = through_a_pane(integrator, closure("OpenPbr", geometry_opacity=0.0))
     # The ball in the middle, and the floor about it.
     places = {"ball": np.s_[11:13, 11:13], "floor": np.s_[2:6, 2:22]}
     for name, place in places.items():

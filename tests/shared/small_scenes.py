@@ -9,6 +9,16 @@ def at(x, y, z):
     return [[1, 0, 0, x], [0, 1, 0, y], [0, 0, 1, z], [0, 0, 0, 1]]
 
 
+def constant(value):
+    """A number or a colour as an input of a described material."""
+    return {"Constant": [*(value if isinstance(value, tuple) else (value,) * 3), 1.0]}
+
+
+def closure(model, **parameters):
+    """A closure of a described material."""
+    return {"weight": constant(1.0), "model": model, "parameters": [[name, constant(value)] for name, value in parameters.items()]}
+
+
 def above(height):
     """A camera's matrix that looks straight down from a height."""
     return [[1, 0, 0, 0], [0, 0, 1, height], [0, -1, 0, 0], [0, 0, 0, 1]]
