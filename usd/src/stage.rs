@@ -1,5 +1,6 @@
 //! Opening stages and reading them into scenes.
 
+mod clips;
 mod faces;
 mod grid;
 mod info;

@@ -1,5 +1,6 @@
 """Bad input: one clear line, never a traceback of another library, never an end of the process."""
 
+import os
 import random
 
 import pytest
@@ -264,3 +265,37 @@ def test_a_file_that_many_prims_miss_is_told_once(tmp_path):
     assert len(told) == 2
     assert told[0].startswith("Could not open asset @chair.usd@") and told[0].endswith("(3 places, this is the first)")
     assert told[1].startswith("Could not open asset @table.usd@") and "places" not in told[1]
+
+
+CLIPS = """
+def Cube "X" (
+    clips = {
+        dictionary default = {
+            asset[] assetPaths = [@CLIP@]
+            string primPath = "/X"
+            double2[] active = [(0, 0)]
+            double2[] times = [(0, 0)]
+        }
+    }
+)
+{
+}
+"""
+
+
+@pytest.mark.parametrize("kind", ["missing", "folder", "circle"])
+def test_value_clips_that_cannot_be_opened_are_told(tmp_path, kind):
+    if kind == "folder":
+        (tmp_path / "folder.usda").mkdir()
+    elif kind == "circle":
+        (tmp_path / "circle.usda").symlink_to("circle.usda")
+    scene = read(tmp_path, CLIPS.replace("CLIP", f"{kind}.usda"))
+    (told,) = [(origin, said) for origin, said in scene.diagnostics if f"value clip {kind}.usda" in said]
+    assert told[0] == "/X" and "left out" in told[1]
+    assert len(scene.to_dict()["meshes"]) == 1
+
+
+def test_a_value_clip_that_is_a_pipe_is_refused(tmp_path):
+    os.mkfifo(tmp_path / "pipe.usda")
+    with pytest.raises(gonio.FormatError, match=r"value clip pipe\.usda is a pipe or device"):
+        read(tmp_path, CLIPS.replace("CLIP", "pipe.usda"))

@@ -1,5 +1,6 @@
 //! Opening a stage: its layers, what of it is populated, and its variants.
 
+use super::clips;
 use super::problem::{format_error, unreadable};
 use crate::memory_limit::MemoryLimit;
 use crate::options::StageOptions;
@@ -12,7 +13,7 @@ use pyo3::types::PyList;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Bytes of the largest layer whose references are looked at before the stage is opened.
+/// Bytes of the largest layer whose references and value clips are looked at before the stage is opened.
 const MOST_SEARCHED: u64 = 4 << 20;
 
 /// A stage with its layer for skinned points.
@@ -36,7 +37,7 @@ pub(super) fn open_prepared<'py>(
     let baked = anonymous("skinned.usda").map_err(unreadable)?;
     let add = || session.getattr("subLayerPaths")?.call_method1("append", (baked.getattr("identifier")?,));
     add().map_err(unreadable)?;
-    let stage = open_layers(py, path, options, &session)?;
+    let stage = open_layers(py, path, options, &session, diagnostics)?;
     select_variants(&stage, options)?;
     expand_mask(&stage, options).map_err(unreadable)?;
     let documents = material::substitute_documents(&stage, diagnostics);
@@ -55,11 +56,21 @@ pub(super) fn open_prepared<'py>(
 }
 
 /// The stage, with the session layer as the edit target.
-fn open_layers<'py>(py: Python<'py>, path: &Path, options: &StageOptions, session: &Bound<'py, PyAny>) -> Result<Bound<'py, PyAny>> {
+fn open_layers<'py>(
+    py: Python<'py>,
+    path: &Path,
+    options: &StageOptions,
+    session: &Bound<'py, PyAny>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Result<Bound<'py, PyAny>> {
     let _limit = MemoryLimit::new(py);
     detach_layers(py, options.detached).map_err(|error| unreadable(py, path, &error))?;
     let root = find_layer(py, path)?;
-    check_references(path, &root).map_err(|error| unreadable(py, path, &error))??;
+    // Large layers are not searched.
+    if std::fs::metadata(path).is_ok_and(|found| found.len() <= MOST_SEARCHED) {
+        check_references(path, &root).map_err(|error| unreadable(py, path, &error))??;
+        clips::check(path, &root, diagnostics).map_err(|error| unreadable(py, path, &error))??;
+    }
     if let Some(layer) = &options.session_layer {
         check_file(layer)?;
         let found = find_layer(py, layer)?;
@@ -91,11 +102,8 @@ fn detach_layers(py: Python<'_>, all: bool) -> PyResult<()> {
     layer.call_method1("SetDetachedLayerRules", (rules,)).map(|_| ())
 }
 
-/// Refuses a layer that refers to pipes and devices, which opening the stage would wait for. Large layers are not searched.
+/// Refuses a layer that refers to pipes and devices, which opening the stage would wait for.
 fn check_references(path: &Path, layer: &Bound<'_, PyAny>) -> PyResult<Result<()>> {
-    if std::fs::metadata(path).map_or(true, |found| found.len() > MOST_SEARCHED) {
-        return Ok(Ok(()));
-    }
     for reference in layer.call_method0("GetCompositionAssetDependencies")?.try_iter()? {
         let reference = reference?;
         let place: String = layer.call_method1("ComputeAbsolutePath", (&reference,))?.extract()?;
