@@ -1,9 +1,12 @@
 //! Writing a file whole or not at all; what is no ordinary file is written into.
 
-use crate::{Error, Result, regular::is_of_open_files};
+use crate::{
+    Error, Result,
+    regular::is_of_open_files,
+    temporary::{of_this_process, sweep, temporary},
+};
 use std::{
     fs::{self, File, OpenOptions},
-    hash::{DefaultHasher, Hash, Hasher},
     io::{self, BufWriter, Cursor, ErrorKind, Seek, SeekFrom, Write},
     path::{Path, PathBuf},
     sync::mpsc::channel,
@@ -65,6 +68,9 @@ enum Target {
 /// Writes through a temporary file in the same folder, which takes the name once it is complete, and on disk if it is to be `durable`. Links stay:
 /// what they lead to is replaced. Devices and pipes are written into, and so are files in folders that take no others.
 pub fn write_atomically(path: &Path, durable: bool, write: impl FnOnce(&mut Output) -> io::Result<()>) -> Result<()> {
+    if let Ok(Target::File(file)) = target(path) {
+        sweep(&file);
+    }
     write_beside(path, &of_this_process(), durable, write)
 }
 
@@ -108,10 +114,6 @@ pub fn check_writable(path: &Path) -> Result<()> {
     checked.map_err(|error| Error::io(path, error))
 }
 
-fn of_this_process() -> String {
-    format!(".{}.part", std::process::id())
-}
-
 fn target(path: &Path) -> io::Result<Target> {
     let mut path = path.to_path_buf();
     match fs::metadata(&path) {
@@ -134,34 +136,6 @@ fn target(path: &Path) -> io::Result<Target> {
         path = folder.join(fs::read_link(&path)?);
     }
     Ok(Target::File(path))
-}
-
-/// Makes the temporary file of a file: its name with an ending, or a short one where that is longer than names may be.
-fn temporary(path: &Path, ending: &str) -> io::Result<(PathBuf, File)> {
-    let name = path.file_name().unwrap_or_default();
-    let mut long = name.to_os_string();
-    long.push(ending);
-    let long = path.with_file_name(long);
-    let made = match File::create(&long) {
-        Err(error) if error.kind() == ErrorKind::InvalidFilename => {
-            let mut hasher = DefaultHasher::new();
-            name.hash(&mut hasher);
-            let short = path.with_file_name(format!("gonio-{:016x}{ending}", hasher.finish()));
-            File::create(&short).map(|file| (short, file))
-        }
-        made => made.map(|file| (long, file)),
-    };
-    made.map_err(|error| in_folder(path, error))
-}
-
-/// Says that it is the folder that is not there.
-fn in_folder(path: &Path, error: io::Error) -> io::Error {
-    match path.parent() {
-        Some(folder) if error.kind() == ErrorKind::NotFound && !folder.exists() => {
-            io::Error::new(ErrorKind::NotFound, format!("there is no folder {}", folder.display()))
-        }
-        _ => error,
-    }
 }
 
 fn replace(path: &Path, temporary: &Path, file: File, durable: bool, write: impl FnOnce(&mut Output) -> io::Result<()>) -> io::Result<()> {
@@ -233,6 +207,27 @@ mod tests {
         }
         assert!(check_writable(&folder.join("n".repeat(256))).is_err());
         assert_eq!(names(&folder), 3, "nothing is left over");
+        fs::remove_dir_all(folder).expect("ours");
+    }
+
+    #[test]
+    fn what_killed_processes_left_is_swept_and_what_others_write_stays() {
+        let folder = folder("swept");
+        let path = folder.join("o.exr");
+        let long = folder.join("n".repeat(255));
+        fs::write(folder.join("o.exr.4000000.part"), "of one that was killed").expect("a file");
+        for other in ["o.exr.part", "o.exr.x.part", "p.exr.4000000.part"] {
+            fs::write(folder.join(other), "of somebody else").expect("a file");
+        }
+        let (_, file) = temporary(&path, ".4000001.part").expect("a writer");
+        let (left, _) = temporary(&long, ".4000000.part").expect("a file without a writer");
+        put(&path, "whole").expect("a file");
+        put(&long, "whole").expect("a file");
+        assert!(!left.exists() && !folder.join("o.exr.4000000.part").exists());
+        assert!(folder.join("o.exr.4000001.part").exists(), "somebody writes it");
+        drop(file);
+        put(&path, "whole").expect("a file");
+        assert_eq!(names(&folder), 5);
         fs::remove_dir_all(folder).expect("ours");
     }
 

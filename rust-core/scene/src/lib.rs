@@ -31,6 +31,7 @@ mod points;
 mod regular;
 mod settings;
 mod shutter;
+mod temporary;
 mod texture;
 mod transform;
 

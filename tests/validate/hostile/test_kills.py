@@ -153,11 +153,7 @@ def killed_while_writing(command, folder, name, sent):
     return False
 
 
-# Temporary files are named after their process, and no later one looks for them.
-LEFT_OVER = pytest.mark.xfail(strict=True, reason="NAME.PID.part stays beside the target for good where a process is killed while it writes")
-
-
-@pytest.mark.parametrize("sent", [pytest.param(name, marks=LEFT_OVER if name == "SIGKILL" else ()) for name in killing.SIGNALS])
+@pytest.mark.parametrize("sent", killing.SIGNALS)
 @pytest.mark.parametrize("name", ["a.exr", "a.png"])
 def test_kills_while_a_picture_is_written(command, run, tmp_path, name, sent):
     pictures.room(tmp_path / "stage.usda")
