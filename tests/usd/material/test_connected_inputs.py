@@ -95,7 +95,7 @@ def test_a_threshold_that_a_primvar_says_cuts(tmp_path):
 def dangling(tmp_path, connection, extra=""):
     material = glowing("M", "gone", extra).replace("</M/gone>", connection)
     found, told = shown(tmp_path / "a.usda", 1, square(0, "/M"), material, strict=False)
-    return found[0], [message for message in told if "not there" in message or "no output" in message]
+    return found[0], [message for message in told if any(words in message for words in ("not there", "no output", "back to itself"))]
 
 
 def test_connections_that_lead_nowhere_are_told(tmp_path):
@@ -110,6 +110,12 @@ def test_connections_that_lead_nowhere_are_told(tmp_path):
     assert len(told) == 1 and "</M/T.outputs:rgb>" in told[0], told
     # An interface without a value is no fault.
     assert dangling(tmp_path, "</M.inputs:tint>", "color3f inputs:tint\n")[1] == []
+
+
+def test_interfaces_in_a_circle_are_told(tmp_path):
+    graph = 'def NodeGraph "{0}"\n{{\n color3f inputs:a.connect = </M/{1}.outputs:o>\n color3f outputs:o.connect = </M/{0}.inputs:a>\n}}\n'
+    _, told = dangling(tmp_path, "</M/A.outputs:o>", graph.format("A", "B") + graph.format("B", "A"))
+    assert len(told) == 1 and "'emissiveColor'" in told[0] and "back to itself" in told[0], told
 
 
 def test_outputs_that_nodes_do_not_have_are_told(tmp_path):

@@ -17,8 +17,8 @@ const FALLBACK_REFLECTANCE: f32 = 0.18;
 pub(super) fn convert<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, path: &str) -> Option<Material> {
     let origin = Origin::new(path);
     let (surfaces, dangling) = context.attempt(&origin, "the material's surface cannot be found", surfaces(prim))?;
-    for path in dangling {
-        context.warn(&origin, format!("its surface is connected to <{path}>, which is not there"));
+    for end in dangling {
+        context.warn(&origin, format!("its surface is connected to {end}"));
     }
     let mut unknown = Vec::new();
     for (render_context, surface) in surfaces {
@@ -42,7 +42,7 @@ pub(super) fn convert<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, pat
     None
 }
 
-/// Surface shader prims with their render contexts, and where connections lead that end at nothing.
+/// Surface shader prims with their render contexts, and where connections lead that end at nothing or in circles.
 type Surfaces<'py> = (Vec<(String, Prim<'py>)>, Vec<String>);
 
 /// The surface shader prims of a material with their render contexts, the preferred one's first.

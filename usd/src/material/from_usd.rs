@@ -6,10 +6,8 @@ use super::value::{is_colour, stated_colour_space};
 use crate::prim::{Attribute, Prim};
 use crate::pxr::{self, Module};
 use pyo3::{intern, prelude::*};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
-/// Most interfaces of graphs that a connection is followed through.
-const MAX_INTERFACES: usize = 64;
 /// Most shaders of a network that are read.
 const MAX_SHADERS: usize = 60_000;
 
@@ -68,8 +66,8 @@ impl<'py> Reader<'_, 'py> {
             if let Some((prim, output)) = undeclared_source(attribute.object())? {
                 return Ok(self.output(prim, output));
             }
-            if let Some(path) = dangling(attribute.object())? {
-                let message = format!("input '{name}' is connected to <{path}>, which is not there; its own value or default is used");
+            if let Some(end) = dangling(attribute.object())? {
+                let message = format!("input '{name}' is connected to {end}; its own value or default is used");
                 self.document.problems.push((shader.path(), message));
             }
             return self.value(name, &attribute);
@@ -137,14 +135,20 @@ pub(in crate::material) fn undeclared_source<'py>(attribute: &Bound<'py, PyAny>)
     Ok(None)
 }
 
-/// Where a connection leads that ends at nothing, followed through the interfaces of graphs and materials.
+/// Where a connection leads that ends at nothing or in a circle, and that it does, followed through the interfaces of graphs and materials.
 pub(in crate::material) fn dangling(attribute: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
     let py = attribute.py();
     let mut attribute = attribute.clone();
-    for _ in 0..MAX_INTERFACES {
+    let mut passed = HashSet::new();
+    loop {
+        let here: String = attribute.call_method0(intern!(py, "GetPath"))?.str()?.extract()?;
+        if passed.contains(&here) {
+            return Ok(Some(format!("<{here}>, which leads back to itself")));
+        }
+        passed.insert(here);
         let found = Module::UsdShade.item(py, "ConnectableAPI")?.call_method1(intern!(py, "GetConnectedSources"), (&attribute,))?;
         if let Some(path) = found.get_item(1)?.try_iter()?.next() {
-            return path?.str()?.extract().map(Some);
+            return Ok(Some(format!("<{}>, which is not there", path?.str()?)));
         }
         let Some(source) = found.get_item(0)?.try_iter()?.next().transpose()? else { return Ok(None) };
         let name: String = source.getattr(intern!(py, "sourceName"))?.extract()?;
@@ -156,7 +160,6 @@ pub(in crate::material) fn dangling(attribute: &Bound<'_, PyAny>) -> PyResult<Op
             return Ok(None);
         }
     }
-    Ok(None)
 }
 
 /// The unit that exporters of MaterialX leave at an attribute.
