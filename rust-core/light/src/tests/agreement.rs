@@ -1,7 +1,6 @@
 //! `sample`, `eval_hit` and the levels agree.
 
-use super::harness::NO_IMAGES;
-use super::harness::{draw, light, numbers, seeing_all, turned};
+use super::harness::{NO_IMAGES, draw, eval_hit, light, numbers, seeing_all, turned};
 use super::shape::{facing_axes, seen};
 use crate::vector::{Vector, dot, length, narrow, widen};
 use crate::{LightKind, LightRecord, LightTable, OpeningPart, ProjectedArea, Shaping, Spot};
@@ -94,7 +93,7 @@ fn densities<L: Lanes>(l: L, table: &LightTable, p: [f32; 3], hits: &[Column; 3]
     for at in (0..hits[0].len()).step_by(L::COUNT) {
         let hit = Vec3::load(l, [&hits[0], &hits[1], &hits[2]], at);
         let wi = (hit - p).normalize();
-        table.eval_hit(l, None, &from, l.u(0), [wi, hit], l.m(true)).1.store(pdf, at);
+        eval_hit(l, table, None, &from, l.u(0), [wi, hit], l.m(true)).1.store(pdf, at);
     }
 }
 

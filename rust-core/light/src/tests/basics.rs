@@ -1,7 +1,6 @@
 //! Colours, size factors, odd lights and odd places.
 
-use super::harness::NO_IMAGES;
-use super::harness::{draw, light, numbers, seeing_all, turned};
+use super::harness::{NO_IMAGES, draw, eval_hit, light, numbers, seeing_all, turned};
 use super::shape::element;
 use crate::vector::length;
 use crate::{LightKind, LightRecord, LightTable, LightTexture, Shaping, Spot, blackbody_rgb, size_factor};
@@ -136,7 +135,7 @@ fn rectangle_images_are_upright_for_what_they_light() {
         let (from, hit) = (Vec3::splat(l, [0.0, 0.0, -2.0]), Vec3::splat(l, hit));
         let wi = (hit - from).normalize();
         let from = seeing_all(l, [from, Vec3::splat(l, [0.0, 0.0, 1.0])]);
-        table.eval_hit(l, None, &from, l.u(0), [wi, hit], l.m(true)).0.to_rgb().r.to_array()[0]
+        eval_hit(l, table, None, &from, l.u(0), [wi, hit], l.m(true)).0.to_rgb().r.to_array()[0]
     }
     let mut expected = 1.0;
     for hit in [[0.9, 0.9, 0.0], [-0.9, 0.9, 0.0], [0.9, -0.9, 0.0], [-0.9, -0.9, 0.0]] {

@@ -1,6 +1,6 @@
 //! Domes, constant and textured.
 
-use super::harness::{draw, estimate, numbers, seeing_all, turned, uniform};
+use super::harness::{draw, estimate, eval_escaped, numbers, sample_li, seeing_all, turned, uniform};
 use crate::{EscapedRay, LightKind, LightRecord, LightTable, LightTexture};
 use gonio_simd::{Column, Execution, F, Lanes, M, One, Vec3, dispatch};
 use std::f64::consts::PI;
@@ -33,7 +33,7 @@ fn constant_dome_gives_pi() {
 fn look<L: Lanes>(l: L, table: &LightTable, wi: [f32; 3]) -> [f32; 3] {
     let yes = l.m(true);
     let ray = EscapedRay { direction: Vec3::splat(l, wi), pdf: l.f(1.0), first: yes, delta: yes, kind: l.u(0) };
-    let seen = table.eval_escaped(l, None, &seeing_all(l, [Vec3::splat(l, [0.0; 3]); 2]), &ray, None).to_rgb();
+    let seen = eval_escaped(l, table, &seeing_all(l, [Vec3::splat(l, [0.0; 3]); 2]), &ray).to_rgb();
     [seen.r.to_array()[0], seen.g.to_array()[0], seen.b.to_array()[0]]
 }
 
@@ -117,7 +117,7 @@ fn both_halves<L: Lanes>(l: L, table: &LightTable, u: &[Column; 3], out: &mut Co
     let never: M<L> = l.m(false);
     for at in (0..out.len()).step_by(L::COUNT) {
         let numbers: [F<L>; 3] = [l.load(&u[0], at), l.load(&u[1], at), l.load(&u[2], at)];
-        let s = table.sample_li(l, None, &from, numbers[0], &[numbers[1], numbers[2]]);
+        let s = sample_li(l, table, None, &from, &numbers);
         let bsdf = s.wi.z.max(0.0) * std::f32::consts::FRAC_1_PI;
         let weight = s.delta.select(l.f(1.0), s.pdf * s.pdf / (s.pdf * s.pdf + bsdf * bsdf));
         let by_light = (s.radiance.to_rgb().g * s.wi.z.max(0.0) * weight / s.pdf).keep_if(s.pdf.gt(0.0));
@@ -125,7 +125,7 @@ fn both_halves<L: Lanes>(l: L, table: &LightTable, u: &[Column; 3], out: &mut Co
         let r = numbers[1].sqrt();
         let wi = Vec3::new(r * cosine, r * sine, (1.0 - numbers[1]).safe_sqrt());
         let ray = EscapedRay { direction: wi, pdf: wi.z * std::f32::consts::FRAC_1_PI, first: never, delta: never, kind: l.u(0) };
-        let by_bsdf = table.eval_escaped(l, None, &from, &ray, None).to_rgb().g * std::f32::consts::PI;
+        let by_bsdf = eval_escaped(l, table, &from, &ray).to_rgb().g * std::f32::consts::PI;
         (by_light + by_bsdf).store(out, at);
     }
 }

@@ -1,7 +1,7 @@
 //! Batches of samples through the kernels at any level.
 
-use crate::{LightCache, LightKind, LightRecord, LightSample, LightSampleContext, LightTable};
-use gonio_simd::{Column, Execution, F, Lanes, M, Spectrum, Vec3, dispatch, padded};
+use crate::{EscapedRay, LightCache, LightKind, LightRecord, LightSample, LightSampleContext, LightTable};
+use gonio_simd::{Column, Execution, F, Lanes, M, Spectrum, U, Vec3, dispatch, padded};
 
 /// Samples drawn, column by column.
 #[derive(Default)]
@@ -52,7 +52,7 @@ pub(super) fn seeing_all<L: Lanes>(l: L, [position, normal]: [Vec3<L>; 2]) -> Li
 
 /// [`LightTable::sample_li`] as a function of its own: all kinds of lights in one function with evaluation compile for minutes.
 #[inline(never)]
-fn sample_li<L: Lanes>(
+pub(super) fn sample_li<L: Lanes>(
     l: L,
     table: &LightTable,
     light_cache: Option<&LightCache>,
@@ -65,22 +65,29 @@ fn sample_li<L: Lanes>(
     )
 }
 
-/// [`LightTable::eval_hit`] likewise.
+/// [`LightTable::eval_hit`] likewise, of a point that a ray met.
 #[inline(never)]
-fn eval_hit<L: Lanes>(
+pub(super) fn eval_hit<L: Lanes>(
     l: L,
     table: &LightTable,
     light_cache: Option<&LightCache>,
-    sample: &LightSample<L>,
     from: &LightSampleContext<L>,
-    placed: M<L>,
+    light: U<L>,
+    ray: [Vec3<L>; 2],
+    mask: M<L>,
 ) -> (Spectrum<L>, F<L>) {
     l.vectorize(
         #[inline(always)]
-        || {
-            let hit = sample.wi.mul_add(sample.distance, from.position);
-            table.eval_hit(l, light_cache, from, sample.light, [sample.wi, hit], placed)
-        },
+        || table.eval_hit(l, light_cache, from, light, ray, mask),
+    )
+}
+
+/// [`LightTable::eval_escaped`] likewise.
+#[inline(never)]
+pub(super) fn eval_escaped<L: Lanes>(l: L, table: &LightTable, from: &LightSampleContext<L>, ray: &EscapedRay<L>) -> Spectrum<L> {
+    l.vectorize(
+        #[inline(always)]
+        || table.eval_escaped(l, None, from, ray, None),
     )
 }
 
@@ -106,7 +113,8 @@ fn kernel<L: Lanes>(
         s.pdf.store(&mut drawn.pdf, at);
         s.light.store(&mut drawn.light, at);
         let placed = s.distance.lt(f32::MAX) & s.pdf.gt(0.0) & !s.delta;
-        let (radiance, pdf) = eval_hit(l, table, light_cache, &s, &from, placed);
+        let hit = s.wi.mul_add(s.distance, from.position);
+        let (radiance, pdf) = eval_hit(l, table, light_cache, &from, s.light, [s.wi, hit], placed);
         let [r, g, b] = &mut drawn.eval_radiance;
         radiance.to_rgb().store([r, g, b], at);
         pdf.store(&mut drawn.eval_pdf, at);

@@ -1,7 +1,6 @@
 //! Domes looked for through portals.
 
-use super::harness::NO_IMAGES;
-use super::harness::{draw, light, numbers, seeing_all, turned, uniform};
+use super::harness::{NO_IMAGES, draw, eval_escaped, light, numbers, sample_li, seeing_all, turned, uniform};
 use crate::{EscapedRay, LightKind, LightRecord, LightTable, LightTexture, power_heuristic};
 use gonio_simd::{Column, Execution, F, Lanes, M, One, Vec3, dispatch};
 use std::f64::consts::PI;
@@ -114,7 +113,7 @@ fn through_windows<L: Lanes>(l: L, table: &LightTable, windows: &LightTable, u: 
     };
     for at in (0..out.len()).step_by(L::COUNT) {
         let numbers: [F<L>; 3] = [l.load(&u[0], at), l.load(&u[1], at), l.load(&u[2], at)];
-        let s = table.sample_li(l, None, &from, numbers[0], &[numbers[1], numbers[2]]);
+        let s = sample_li(l, table, None, &from, &numbers);
         let cosine = s.wi.z.max(0.0);
         let weight = power_heuristic(s.pdf, cosine * std::f32::consts::FRAC_1_PI);
         let by_light = (s.radiance.to_rgb().g * cosine * weight / s.pdf).keep_if(s.pdf.gt(0.0) & open(s.wi));
@@ -122,7 +121,7 @@ fn through_windows<L: Lanes>(l: L, table: &LightTable, windows: &LightTable, u: 
         let r = numbers[1].sqrt();
         let wi = Vec3::new(r * cosine, r * sine, (1.0 - numbers[1]).safe_sqrt());
         let ray = EscapedRay { direction: wi, pdf: wi.z * std::f32::consts::FRAC_1_PI, first: never, delta: never, kind: l.u(0) };
-        let by_bsdf = table.eval_escaped(l, None, &from, &ray, None).to_rgb().g * std::f32::consts::PI;
+        let by_bsdf = eval_escaped(l, table, &from, &ray).to_rgb().g * std::f32::consts::PI;
         (by_light + by_bsdf.keep_if(open(wi))).store(out, at);
     }
 }
