@@ -134,6 +134,68 @@ def test_bodies_around_the_camera_add_up_and_those_beside_it_do_not():
     assert np.allclose(seen(scene), expected, rtol=2e-4)
 
 
+def test_weak_fog_is_still_there_behind_what_is_dense():
+    scene = shining_floor()
+    filled(scene, (0, 0, 0), stretch=(1, 9, 1), absorption=(0.01, 0.02, 0.04))
+    # A millimetre that swallows a part in e.
+    filled(scene, (0, 4, 0), stretch=(0.9, 0.001, 0.9), absorption=(1000.0,) * 3)
+    assert np.allclose(seen(scene), np.exp(-1.0 - 8.0 * np.array((0.01, 0.02, 0.04))), rtol=1e-3)
+
+
+RESIN = {"specular_ior": 1.0, "transmission_weight": 1.0, "transmission_color": (0.5, 0.5, 0.5), "transmission_depth": 0.5}
+
+
+@pytest.mark.parametrize("elsewhere", [(), (ABSORPTION,)], ids=["alone", "a volume elsewhere"])
+def test_solids_are_what_they_are_whatever_else_there_is(elsewhere):
+    def below(y, **parameters):
+        scene = shining_floor()
+        filled(scene, (0, y, 0), closures=[closure("OpenPbr", **RESIN, **parameters)], absorption=(0.0,) * 3)
+        for absorption in elsewhere:
+            filled(scene, (5, 1, 0), absorption=absorption)
+        return seen(scene)
+
+    assert np.allclose(below(1), 0.25, rtol=2e-4)
+    # What goes straight on through a cut-out is not bent into it.
+    assert np.allclose(below(1, geometry_opacity=0.0), 1.0, rtol=1e-6)
+    # A volume within a solid, and a solid within a volume.
+    scene = shining_floor()
+    filled(scene, (0, 1, 0), stretch=(1, 3, 1), closures=[closure("OpenPbr", **RESIN)], absorption=(0.0,) * 3)
+    filled(scene, (0, 2, 0), stretch=(0.9, 1, 0.9))
+    assert np.allclose(seen(scene), left(1.0) / 64.0, rtol=5e-4)
+
+
+@pytest.mark.parametrize("elsewhere", [False, True])
+def test_an_open_sheet_of_resin_does_not_blacken_the_sky(elsewhere):
+    scene = gonio.Scene()
+    scene.set(width=8, height=8, samples=16, passes=["color"])
+    sheet = scene.put_material({"origin": "sheet", "closures": [closure("OpenPbr", **RESIN)]})
+    scene.add_instance(scene.add_mesh(FLOOR, QUAD), [sheet])
+    if elsewhere:
+        filled(scene, (50, 1, 0))
+    scene.add_light("dome", (1.0,) * 3)
+    scene.add_camera(above(8), fov=1)
+    assert np.allclose(seen(scene), 1.0, rtol=1e-5)
+
+
+@pytest.mark.parametrize("integrator", ["path", "whitted"])
+def test_what_dims_straight_light_covers_what_is_behind(integrator):
+    """A picture over a background shows it as dim as it is behind the glass: alpha is what does not pass, in the mean of the channels."""
+
+    def alpha(*fill, **rest):
+        scene = gonio.Scene()
+        scene.set(width=8, height=8, samples=256, passes=["color"], integrator=integrator)
+        filled(scene, (0, 1, 0), *fill, **rest)
+        scene.add_camera(above(8), fov=1)
+        return np.asarray(finished(scene)["color"])[..., 3].mean()
+
+    tint = np.array([0.9, 0.5, 0.1])
+    pane = {"closures": [closure("Transparent", base_color=(0.9, 0.5, 0.1))], "absorption": (0.0,) * 3}
+    assert alpha() == pytest.approx(1 - left(1.0).mean(), rel=1e-3)
+    # Into the box and out of it.
+    assert alpha(**pane) == pytest.approx(1 - (tint**2).mean(), rel=1e-3)
+    assert alpha(closures=[closure("Transparent", base_color=1.0)], absorption=(0.0,) * 3) == pytest.approx(0, abs=1e-6)
+
+
 def lamp_over(box):
     """A meter on the floor, faced by a small lamp 4 m above it, in a box if there is one."""
     scene = gonio.Scene()

@@ -75,7 +75,9 @@ pub struct CameraTable {
 /// What a place stands in: glass, water, resin, or the open.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Surroundings {
-    /// Absorption a metre, R, G, B.
+    /// Names of the media that fill it, as paths carry them.
+    pub media: [u32; 2],
+    /// Absorption a metre of the solid about it, R, G, B.
     pub absorption: [f32; 3],
     /// Squared index of refraction: what paths carry is radiance over it.
     pub squared_index: f32,
@@ -83,7 +85,7 @@ pub struct Surroundings {
 
 impl Surroundings {
     /// Air, which takes nothing away.
-    pub const OPEN: Self = Self { absorption: [0.0; 3], squared_index: 1.0 };
+    pub const OPEN: Self = Self { media: [0; 2], absorption: [0.0; 3], squared_index: 1.0 };
 }
 
 /// A ray for each lane.

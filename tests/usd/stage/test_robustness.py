@@ -291,7 +291,7 @@ def test_value_clips_that_cannot_be_opened_are_told(tmp_path, kind):
         (tmp_path / "circle.usda").symlink_to("circle.usda")
     scene = read(tmp_path, CLIPS.replace("CLIP", f"{kind}.usda"))
     (told,) = [(origin, said) for origin, said in scene.diagnostics if f"value clip {kind}.usda" in said]
-    assert told[0] == "/X" and "left out" in told[1]
+    assert told[0].startswith("/X") and "left out" in told[1]
     assert len(scene.to_dict()["meshes"]) == 1
 
 

@@ -182,8 +182,7 @@ fn report(scene: &Scene, materials: &MaterialTable, lights: &LightTable, diagnos
 fn tables(scene: &Scene, bvh: Tlas, looks: &mut Looks, shapes: &mut Shapes, lights: CompiledLights) -> Tables {
     let (geometry, materials) = (mem::take(&mut shapes.geometry.table), mem::take(&mut looks.materials));
     let (first_light_instance, origin) = (shapes.geometry.first_light, shapes.origin);
-    let any_volume = !materials.media.is_empty();
-    let any_absorbing = any_volume
+    let any_absorbing = !materials.media.is_empty()
         || scene.materials.iter().flat_map(|material| &material.closures).any(|closure| closure.input("transmission_depth").is_some());
     let rows = geometry.instances.iter().take(first_light_instance as usize).map(|row| (row.set, row.number, row.mesh));
     let bodies = bodies::of(scene, &shapes.mesh_bounds, rows, (&materials, &lights.table), origin);
@@ -202,7 +201,6 @@ fn tables(scene: &Scene, bvh: Tlas, looks: &mut Looks, shapes: &mut Shapes, ligh
         matte_names: matte_names(scene),
         any_transparent: materials.surfaces.iter().any(|surface| surface.lets_light_pass),
         any_absorbing,
-        any_volume,
         bodies,
         emission_in_media: Vec::new(),
         origin,

@@ -57,7 +57,6 @@ impl<'a> Probe<'a> {
             matte_names: MatteNames::default(),
             any_transparent: false,
             any_absorbing: false,
-            any_volume: false,
             bodies: Bodies::default(),
             emission_in_media: Vec::new(),
             origin,

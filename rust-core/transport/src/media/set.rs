@@ -1,120 +1,172 @@
 //! The media that a ray is in (Cycles' volume stack).
 //!
-//! Media that overlap add up, and nothing scatters in them: their extinction is their absorption, whose sum is all that light takes notice of.
+//! Media that fill meshes overlap: their extinctions add up, and each is left by its name. Solids, which bend rays at their surfaces, take each other's
+//! place. Nothing scatters: extinction is absorption.
 
+use crate::tables::media::MediumTable;
+use gonio_camera::Surroundings;
 use gonio_simd::{Column, F, Lanes, M, Rgb, Spectrum, SpectrumColumns, U};
 
 /// Lights further away than this are infinitely far.
 pub(super) const FAR: f32 = 1e20;
-/// What sums leave of media that a ray has left, as a part of them and a metre.
-pub(super) const RESIDUE: f32 = 1e-5;
+/// Bits of a name, two of which stand in a word.
+const BITS: u32 = 16;
+const NAME: u32 = (1 << BITS) - 1;
 
 /// One register of what rays are in.
 #[derive(Clone, Copy, Debug)]
 pub struct MediaSet<L: Lanes> {
-    /// Extinction a metre, of all of them together.
-    extinction: Spectrum<L>,
+    /// Rows of up to four media that fill the place; 0 is none. Two bodies full of one medium stand there twice, a fifth is left out.
+    names: [U<L>; 2],
+    /// Absorption a metre of the solid about the place.
+    solid: Spectrum<L>,
 }
 
 impl<L: Lanes> MediaSet<L> {
     /// The open: nothing takes light away.
     #[inline(always)]
     pub fn open(l: L) -> Self {
-        Self { extinction: Spectrum::zero(l) }
-    }
-
-    /// What absorbs so much a metre.
-    #[inline(always)]
-    pub fn absorbing(absorption: Spectrum<L>) -> Self {
-        Self { extinction: absorption }
-    }
-
-    /// Absorption a metre of all of them together.
-    #[inline(always)]
-    pub fn absorption(self) -> Spectrum<L> {
-        self.extinction
+        Self { names: [l.u(0); 2], solid: Spectrum::zero(l) }
     }
 
     /// What a place is in, as [`crate::surroundings_at`] tells; in every lane.
     #[inline(always)]
-    pub fn at_place(l: L, absorption: [f32; 3]) -> Self {
-        let [r, g, b] = absorption.map(|x| l.f(x));
-        Self::absorbing(Spectrum::coefficient(Rgb::new(r, g, b)))
+    pub fn at_place(l: L, place: &Surroundings) -> Self {
+        let [r, g, b] = place.absorption.map(|x| l.f(x));
+        Self { names: place.media.map(|names| l.u(names)), solid: Spectrum::coefficient(Rgb::new(r, g, b)) }
     }
 
-    /// The same of some places, whose absorption stands in columns.
-    #[inline(always)]
-    pub fn at_places(l: L, [r, g, b]: &[Column; 3], place: U<L>) -> Self {
-        Self::absorbing(Spectrum::coefficient(Rgb::new(l.gather(r, place), l.gather(g, place), l.gather(b, place))))
+    /// The names, and what the solid absorbs a metre.
+    pub(crate) fn parts(self) -> ([U<L>; 2], Spectrum<L>) {
+        (self.names, self.solid)
     }
 
-    /// This where the mask is set, else another.
+    /// What is behind a surface that encloses a solid with this absorption, and what a row of the table fills.
     #[inline(always)]
-    pub fn select(self, mask: M<L>, other: Self) -> Self {
-        Self { extinction: mask.select(self.extinction, other.extinction) }
-    }
-
-    /// What is behind a surface that encloses so much absorption: volumes add up, solids take the place of what is before them.
-    #[inline(always)]
-    pub fn behind(self, enclosed: Spectrum<L>, entering: M<L>, any_volume: bool) -> Self {
-        let before = self.extinction;
-        let extinction = if any_volume {
-            entering.select(before + enclosed, (before - enclosed - before * RESIDUE).max(0.0))
-        } else {
-            // Leaving a solid leads to the open.
-            enclosed.keep_if(entering)
+    pub fn behind(self, solid: Spectrum<L>, filling: Option<u32>, entering: M<L>) -> Self {
+        let filled = match filling {
+            Some(row) => self.entered(row, entering).left(row, !entering),
+            None => self,
         };
-        Self { extinction }
+        // Leaving a solid leads to the open.
+        Self { solid: solid.keep_if(entering), ..filled }
+    }
+
+    /// With one medium more.
+    #[inline(always)]
+    pub fn entered(self, row: u32, chosen: M<L>) -> Self {
+        self.exchanged(0, row, chosen)
+    }
+
+    /// Without a medium, if it is there: open meshes may be left without having been entered.
+    #[inline(always)]
+    pub fn left(self, row: u32, chosen: M<L>) -> Self {
+        self.exchanged(row, 0, chosen)
+    }
+
+    /// With another name in the first place that has this one.
+    #[inline(always)]
+    fn exchanged(mut self, from: u32, to: u32, mut chosen: M<L>) -> Self {
+        for word in &mut self.names {
+            for shift in [0, BITS] {
+                let here = chosen & ((*word >> shift) & NAME).eq(from);
+                *word = here.select(*word ^ ((from ^ to) << shift), *word);
+                chosen = chosen.and_not(here);
+            }
+        }
+        self
+    }
+
+    /// What rays are in that leave a surface: `across` where they go behind it, `straight` where nothing bends them. What fills meshes lies behind
+    /// all of them, solids behind what is bent.
+    #[inline(always)]
+    pub fn towards(self, behind: Self, across: M<L>, straight: M<L>) -> Self {
+        let names = [0, 1].map(
+            #[inline(always)]
+            |word| across.select(behind.names[word], self.names[word]),
+        );
+        Self { names, solid: across.and_not(straight).select(behind.solid, self.solid) }
+    }
+
+    /// Extinction a metre of all of them together.
+    #[inline(always)]
+    pub fn extinction(self, media: &MediumTable) -> Spectrum<L> {
+        self.of_names(media) + self.solid
+    }
+
+    #[inline(always)]
+    fn of_names(self, media: &MediumTable) -> Spectrum<L> {
+        let l = self.names[0].lanes();
+        let mut sum = Spectrum::zero(l);
+        if media.is_empty() {
+            return sum;
+        }
+        for word in self.names {
+            if word.ne(0).any() {
+                sum = sum + media.absorption(l, word & NAME) + media.absorption(l, word >> BITS);
+            }
+        }
+        sum
+    }
+
+    /// Optical depth of so many metres. No solid reaches infinitely far: where one seems to, its mesh is open.
+    #[inline(always)]
+    pub fn optical_depth(self, media: &MediumTable, distance: F<L>) -> Spectrum<L> {
+        let solid = self.solid.keep_if(distance.lt(FAR));
+        (self.of_names(media) + solid) * distance.min(FAR)
     }
 
     /// What is left of light after so many metres (Beer and Lambert).
     #[inline(always)]
-    pub fn transmittance(self, distance: F<L>) -> Spectrum<L> {
-        (self.extinction * -distance.min(FAR)).exp()
+    pub fn transmittance(self, media: &MediumTable, distance: F<L>) -> Spectrum<L> {
+        (self.optical_depth(media, distance) * distance.lanes().f(-1.0)).exp()
     }
 }
 
 /// What rays are in that wait between stages.
 #[derive(Debug)]
 pub struct MediaColumns {
-    extinction: SpectrumColumns,
+    names: [Column<u32>; 2],
+    solid: SpectrumColumns,
 }
 
 impl MediaColumns {
     /// Room for so many rays, which are in the open.
     pub fn new(room: usize) -> Self {
-        Self { extinction: SpectrumColumns::new(room) }
+        Self { names: [Column::new(room), Column::new(room)], solid: SpectrumColumns::new(room) }
     }
     /// Writes the chosen lanes behind the first `len` rays.
     #[inline(always)]
     pub fn append<L: Lanes>(&mut self, media: MediaSet<L>, chosen: M<L>, len: usize) {
-        self.extinction.append(media.extinction, chosen, len);
+        media.names.iter().zip(&mut self.names).for_each(|(word, column)| word.append(chosen, column, len));
+        self.solid.append(media.solid, chosen, len);
+    }
+    /// Writes those of a register of rays from the one at `at` on.
+    #[inline(always)]
+    pub fn store<L: Lanes>(&mut self, media: MediaSet<L>, at: usize) {
+        media.names.iter().zip(&mut self.names).for_each(|(word, column)| word.store(column, at));
+        self.solid.store(media.solid, at);
     }
     /// Those of a register of rays from the one at `at` on.
     #[inline(always)]
     pub fn load<L: Lanes>(&self, l: L, at: usize) -> MediaSet<L> {
-        MediaSet { extinction: self.extinction.load(l, at) }
+        let [first, second] = &self.names;
+        MediaSet { names: [l.load_integers(first, at), l.load_integers(second, at)], solid: self.solid.load(l, at) }
     }
     /// Those of some rays.
     #[inline(always)]
     pub fn gather<L: Lanes>(&self, l: L, ray: U<L>) -> MediaSet<L> {
-        MediaSet { extinction: self.extinction.gather(l, ray) }
+        let [first, second] = &self.names;
+        MediaSet { names: [l.gather_integers(first, ray), l.gather_integers(second, ray)], solid: self.solid.gather(l, ray) }
     }
     /// Copies those of one ray over another's.
     pub fn copy(&mut self, from: usize, to: usize) {
-        self.extinction.copy(from, to);
+        self.names.iter_mut().for_each(|column| column[to] = column[from]);
+        self.solid.copy(from, to);
     }
-    /// Adds one of some absorptions to what a ray is in, so many times.
-    pub fn add(&mut self, ray: usize, absorption: &SpectrumColumns, from: usize, times: f32) {
-        self.extinction.add(ray, absorption, from, times);
-    }
-    /// Lets nothing take away less than nothing: open meshes may be left without having been entered.
-    #[inline(always)]
-    pub fn hold<L: Lanes>(&mut self, l: L, count: usize) {
-        (0..count).step_by(L::COUNT).for_each(|at| self.extinction.store(self.extinction.load(l, at).max(0.0), at));
-    }
-    /// All extinctions.
-    pub(super) fn extinction(&self) -> &SpectrumColumns {
-        &self.extinction
+    /// Sets the solid about a ray to one of some absorptions.
+    pub(crate) fn set_solid(&mut self, ray: usize, absorption: &SpectrumColumns, from: usize) {
+        self.solid.scale(ray, 0.0);
+        self.solid.add(ray, absorption, from, 1.0);
     }
 }

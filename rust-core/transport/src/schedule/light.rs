@@ -138,11 +138,11 @@ impl LightTracer<'_> {
         ws.statistics.rays += ws.paths.count as u64;
         ws.paths.set_times(&ws.times);
         find_surfaces(tables, transport, &ws.paths, &mut ws.nearest);
-        receiver.travelled(&Segments::new(&ws.paths, &ws.nearest.hits, &ws.queues.light_paths.starts));
+        receiver.travelled(&Segments::new(&tables.materials.media, &ws.paths, &ws.nearest.hits, &ws.queues.light_paths.starts));
         let light_paths = &mut ws.queues.light_paths;
         (light_paths.arrivals.count, light_paths.escapes.count) = (0, 0);
         dispatch!(transport.execution, l => {
-            escape(l, &ws.paths, &mut ws.nearest.escaped, &light_paths.starts, &mut light_paths.escapes);
+            escape(l, tables, &ws.paths, &mut ws.nearest.escaped, &light_paths.starts, &mut light_paths.escapes);
             list_materials(l, tables, &ws.nearest.hits, &mut ws.materials.material_of);
         });
         choose_closures(tables, transport, sample, &mut ws.paths, &ws.nearest.hits, &mut ws.materials, &mut ws.chunk, None);

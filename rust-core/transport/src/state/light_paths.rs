@@ -1,7 +1,7 @@
 //! Light paths' own state: the flux that each started with, and what a bounce brings: flux that arrived, escaped or may reach the camera.
 
 use crate::state::columns::{Columns3, append3, columns3};
-use crate::state::media::StartRoom;
+use crate::state::start_room::StartRoom;
 use crate::state::queue::shadow_rays::ShadowRays;
 use crate::state::textured_emission::EmissionRoom;
 use crate::words::{flag, ray_mask};

@@ -3,10 +3,10 @@
 //! The record is embedded whole wherever a path waits: in [`crate::state::paths::PathLanes`], vertices, and points that are measured. What is added to it needs
 //! a column there, and somebody who decides its value at scattering ([`crate::state::vertex::Vertex`]'s makers).
 
-use crate::media::set::MediaSet;
+use crate::media::set::{MediaColumns, MediaSet};
 use crate::words::flag;
 use gonio_camera::Surroundings;
-use gonio_simd::{Column, F, Lanes, Spectrum, U};
+use gonio_simd::{Column, F, Lanes, One, Spectrum, U};
 
 /// One register of what paths carry.
 #[derive(Clone, Copy, Debug)]
@@ -30,18 +30,19 @@ pub(crate) struct PathCore<L: Lanes> {
 /// What cameras and meters stand in, as columns.
 #[derive(Debug)]
 pub(crate) struct SurroundingsColumns {
-    absorption: [Column; 3],
+    media: MediaColumns,
     squared_index: Column,
 }
 
 impl SurroundingsColumns {
     pub(crate) fn new(all: &[Surroundings]) -> Self {
-        let column = |value: &dyn Fn(&Surroundings) -> f32| {
-            let mut column = Column::new(gonio_simd::padded(all.len()) + gonio_simd::PADDING);
-            column.iter_mut().zip(all).for_each(|(place, one)| *place = value(one));
-            column
-        };
-        Self { absorption: [0, 1, 2].map(|part| column(&|one| one.absorption[part])), squared_index: column(&|one| one.squared_index) }
+        let room = gonio_simd::padded(all.len()) + gonio_simd::PADDING;
+        let (mut media, mut squared_index) = (MediaColumns::new(room), Column::new(room));
+        for (place, one) in all.iter().enumerate() {
+            media.store(MediaSet::at_place(One, one), place);
+            squared_index[place] = one.squared_index;
+        }
+        Self { media, squared_index }
     }
 }
 
@@ -50,14 +51,14 @@ impl<L: Lanes> PathCore<L> {
     #[inline(always)]
     pub(crate) fn of_camera(l: L, slot: U<L>, camera: &Surroundings) -> Self {
         let throughput = Spectrum::constant(l.f(camera.squared_index));
-        Self { throughput, media: MediaSet::at_place(l, camera.absorption), ..Self::new(l, slot, l.u(flag::CAMERA | flag::DELTA)) }
+        Self { throughput, media: MediaSet::at_place(l, camera), ..Self::new(l, slot, l.u(flag::CAMERA | flag::DELTA)) }
     }
 
     /// That of paths which start at meters.
     #[inline(always)]
     pub(crate) fn of_sensors(l: L, slot: U<L>, sensors: &SurroundingsColumns, sensor: U<L>) -> Self {
         let throughput = Spectrum::constant(l.gather(&sensors.squared_index, sensor));
-        let media = MediaSet::at_places(l, &sensors.absorption, sensor);
+        let media = sensors.media.gather(l, sensor);
         Self { throughput, media, ..Self::new(l, slot, l.u(flag::CAMERA | flag::DELTA)) }
     }
 

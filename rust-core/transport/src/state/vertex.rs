@@ -142,22 +142,18 @@ impl<L: Lanes> Vertex<L> {
         }
     }
 
-    /// What rays that leave are in: `across` where they go behind the surface, `straight` where nothing bends them. Volumes lie behind what rays pass
-    /// straight, solids behind what bends them alone.
+    /// What rays that leave are in: `across` where they go behind the surface, `straight` where nothing bends them.
     #[inline(always)]
-    pub(crate) fn media_towards(&self, across: M<L>, straight: M<L>, any_volume: bool) -> MediaSet<L> {
-        self.behind.select(if any_volume { across } else { across.and_not(straight) }, self.core.media)
+    pub(crate) fn media_towards(&self, across: M<L>, straight: M<L>) -> MediaSet<L> {
+        self.core.media.towards(self.behind, across, straight)
     }
 
     /// What shadow rays take along that leave in a direction.
     #[inline(always)]
     pub(crate) fn along(&self, tables: &Tables, transport: &Transport, direction: Vec3<L>, ceiling: Option<F<L>>) -> Along<L> {
         let l = self.bounces.lanes();
-        let media = if tables.any_absorbing {
-            self.media_towards(self.at.geometric.dot(direction).lt(0.0), l.m(false), tables.any_volume)
-        } else {
-            self.core.media
-        };
+        let media =
+            if tables.any_absorbing { self.media_towards(self.at.geometric.dot(direction).lt(0.0), l.m(false)) } else { self.core.media };
         Along::new(tables, transport, media, self.core.counts, ceiling)
     }
 
@@ -169,9 +165,9 @@ impl<L: Lanes> Vertex<L> {
 
     /// The path that goes on as if there were no surface: it is still under way from the vertex before.
     #[inline(always)]
-    pub(crate) fn straight_on(&self, on: &StraightOn<L>, before: LightSampleContext<L>, any_volume: bool) -> PathLanes<L> {
+    pub(crate) fn straight_on(&self, on: &StraightOn<L>, before: LightSampleContext<L>) -> PathLanes<L> {
         let everywhere = self.alive | !self.alive;
-        let media = self.media_towards(everywhere, everywhere, any_volume);
+        let media = self.media_towards(everywhere, everywhere);
         let core = PathCore { width: on.width, counts: self.core.counts + counts::STRAIGHT, media, ..self.core };
         PathLanes::start(on.ray, core).leaving(before, self.pdf).having_passed(Some(on.passed))
     }

@@ -101,19 +101,11 @@ pub struct MaterialTable {
 impl MaterialTable {
     /// Whether no light comes through a material, by the geometry's number.
     pub fn is_opaque(&self, number: u32) -> bool {
-        let first = self.surfaces.len() as u32;
-        let closures = match number.checked_sub(first) {
-            None => &self.surfaces[number as usize..=number as usize],
-            Some(mix) => {
-                let Mix { first, count, .. } = self.mixes[mix as usize];
-                &self.surfaces[first as usize..first as usize + count]
-            }
-        };
         let passes = |material: &SurfaceMaterial| {
             let lobes = &material.surface.lobes;
             material.transparent || lobes.transmission || lobes.portal
         };
-        !closures.iter().any(passes)
+        !self.closures(number).iter().any(passes)
     }
 
     /// The number that the geometry keeps for a material: mixes stand behind the surfaces.
@@ -139,16 +131,23 @@ impl MaterialTable {
         };
         self.surfaces.get(surface as usize)?.interior
     }
+    /// The closures of a material of the geometry.
+    fn closures(&self, number: u32) -> &[SurfaceMaterial] {
+        match self.shading(number) {
+            Shading::Surface(surface) => &self.surfaces[surface as usize..=surface as usize],
+            Shading::Mix(mix) => {
+                let Mix { first, count, .. } = self.mixes[mix as usize];
+                &self.surfaces[first as usize..first as usize + count]
+            }
+        }
+    }
+    /// Whether what a material of the geometry covers is a solid, whose surface bends what goes in.
+    pub fn is_solid(&self, number: u32) -> bool {
+        self.closures(number).iter().any(|closure| closure.surface.lobes.transmission && !closure.surface.switches.thin_walled)
+    }
     /// What bends the normal where walks come out of a material of the geometry; of a mix that of its first closure with one.
     pub fn exit(&self, number: u32) -> Option<&Program> {
-        let surfaces = match self.shading(number) {
-            Shading::Surface(surface) => surface as usize..surface as usize + 1,
-            Shading::Mix(mix) => {
-                let mix = &self.mixes[mix as usize];
-                mix.first as usize..mix.first as usize + mix.count
-            }
-        };
-        self.surfaces[surfaces].iter().find_map(|surface| surface.exit.as_deref())
+        self.closures(number).iter().find_map(|surface| surface.exit.as_deref())
     }
     /// Whether shadow rays may pass a material of the geometry.
     pub fn lets_light_pass(&self, number: u32) -> bool {

@@ -63,8 +63,6 @@ pub struct Tables {
     pub any_transparent: bool,
     /// Whether any material absorbs light inside.
     pub any_absorbing: bool,
-    /// Whether any material fills meshes with what absorbs straight light, too.
-    pub any_volume: bool,
     /// Placed meshes that absorb or refract.
     pub bodies: Bodies,
     /// By mesh instance, 1 over the squared index of what its surfaces shine into; empty where none shines into glass or the like.

@@ -164,7 +164,7 @@ fn branch<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, ray: &Branch
         (point.at.spawn_ray(wi), point.core.width, None)
     };
     let straight = chunk.l.m(way == Way::Straight);
-    let media = point.media_towards(across, straight, chunk.tables.any_volume);
+    let media = point.media_towards(across, straight);
     let core = PathCore { throughput, width, flags: flags(chunk, point, way), counts: point.core.counts + counted, media, ..point.core };
     let path = match way {
         // What it finds is still seen from the vertex before.

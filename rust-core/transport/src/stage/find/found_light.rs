@@ -16,7 +16,7 @@ use crate::tables::transport::Transport;
 use crate::words::{code, flag};
 use gonio_accel::NONE;
 use gonio_light::{EscapedRay, hit_weight};
-use gonio_simd::{Lanes, dispatch};
+use gonio_simd::{Lanes, Spectrum, U, dispatch};
 
 /// Adds the light that shapes and the environment send along the rays of paths.
 pub(crate) fn add_found(tables: &Tables, transport: &Transport, paths: &Paths, nearest: &mut NearestHits, deposits: &mut Deposits) {
@@ -28,18 +28,26 @@ pub(crate) fn add_found(tables: &Tables, transport: &Transport, paths: &Paths, n
 
 /// Notes the flux of light paths that left the scene.
 #[inline(always)]
-pub(crate) fn escape<L: Lanes>(l: L, paths: &Paths, escaped: &mut Vec<u32>, starts: &LightStarts, escapes: &mut Escapes) {
+pub(crate) fn escape<L: Lanes>(l: L, tables: &Tables, paths: &Paths, escaped: &mut Vec<u32>, starts: &LightStarts, escapes: &mut Escapes) {
     let count = escaped.len();
     escaped.resize(gonio_simd::padded(count), 0);
     for at in (0..count).step_by(L::COUNT) {
         let alive = l.first(count - at);
         let path = l.load_integers(escaped, at);
         let TrackLanes { slot, flags, .. } = paths.track(l, path);
-        let flux = to_film(starts.carried(l, slot, paths.carried(l, path).throughput));
+        let flux = to_film(starts.carried(l, slot, leaving_scene(l, tables, paths, path)));
         let ray = [gather3(l, &paths.rays.origin, path), paths.cone(l, path).direction];
         escapes.append(ray, flux, flags >> flag::BOUNCE_SHIFT, alive);
     }
     escaped.truncate(count);
+}
+
+/// Throughput of paths behind all that they can still come through: where media reach infinitely far, none is left.
+#[inline(always)]
+fn leaving_scene<L: Lanes>(l: L, tables: &Tables, paths: &Paths, path: U<L>) -> Spectrum<L> {
+    let throughput = paths.carried(l, path).throughput;
+    let media = &tables.materials.media;
+    if media.is_empty() { throughput } else { throughput * paths.media.gather(l, path).transmittance(media, l.f(f32::MAX)) }
 }
 
 /// Adds the emission of light shapes that paths hit, weighted by MIS against next event estimation.
@@ -63,7 +71,7 @@ fn add_shapes<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths: &Pa
             weight = (flags & flag::CAMERA).ne(0).select(weight, weight * factor);
         }
         let radiance = if tables.any_absorbing {
-            radiance * paths.media.gather(l, path).transmittance(t - paths.rays.passed.distance(l, path))
+            radiance * paths.media.gather(l, path).transmittance(&tables.materials.media, t - paths.rays.passed.distance(l, path))
         } else {
             radiance
         };
@@ -90,16 +98,17 @@ fn add_environment<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths
     for at in (0..count).step_by(L::COUNT) {
         let alive = l.first(count - at);
         let path = l.load_integers(escaped, at);
-        let (CarriedLanes { throughput, pdf }, TrackLanes { slot, flags, .. }) = (paths.carried(l, path), paths.track(l, path));
+        let (CarriedLanes { pdf, .. }, TrackLanes { slot, flags, .. }) = (paths.carried(l, path), paths.track(l, path));
         let camera = (flags & flag::CAMERA).ne(0);
-        if transport.environment_covers {
-            // The pdf of camera rays is their share of the sample.
-            add(&mut deposits.sums.alpha, slot, pdf, alive & camera);
-        }
+        let throughput = leaving_scene(l, tables, paths, path);
+        let passed = throughput.mean() * (1.0 / transport.squared_index);
+        // The pdf of camera rays is their share of the sample. What dims them covers what is behind by as much.
+        let covered = if transport.environment_covers { pdf } else { pdf - passed };
+        add(&mut deposits.sums.alpha, slot, covered, alive & camera);
         let clear = if transport.limits.clear_roughness < 0.0 { l.m(false) } else { alive & (flags & flag::CLEAR).ne(0) };
         if clear.any() {
             // What glass lets pass of nothing does not cover what is behind.
-            add(&mut deposits.sums.alpha, slot, -throughput.mean() * (1.0 / transport.squared_index), clear);
+            add(&mut deposits.sums.alpha, slot, -passed, clear);
         }
         let alive = if transport.shows_environment { alive } else { alive.and_not(camera | clear) };
         let from = paths.previous(l, path);
@@ -115,7 +124,6 @@ fn add_environment<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths
                 sent = left.select((sent - part).left_of(all), sent);
             }
         }
-        let throughput = if tables.any_volume { throughput * paths.media.gather(l, path).transmittance(l.f(f32::MAX)) } else { throughput };
         let unclamped = sent * throughput;
         let value = transport.limits.clamped(unclamped, flags >> flag::BOUNCE_SHIFT);
         let expressions = transport.passes.expressions.as_deref();

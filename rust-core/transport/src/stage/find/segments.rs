@@ -3,6 +3,7 @@
 use crate::accumulate::deposit::film_numbers;
 use crate::state::light_paths::LightStarts;
 use crate::state::paths::Paths;
+use crate::tables::media::MediumTable;
 use crate::words::flag;
 use gonio_accel::{Hits, NONE};
 use gonio_simd::{Lanes, One};
@@ -10,6 +11,7 @@ use gonio_simd::{Lanes, One};
 /// The segments of a batch in one bounce, by their numbers.
 #[derive(Clone, Copy, Debug)]
 pub struct Segments<'a> {
+    media: &'a MediumTable,
     paths: &'a Paths,
     hits: &'a Hits,
     starts: &'a LightStarts,
@@ -29,8 +31,8 @@ pub struct Segment {
 }
 
 impl<'a> Segments<'a> {
-    pub(crate) fn new(paths: &'a Paths, hits: &'a Hits, starts: &'a LightStarts) -> Self {
-        Self { paths, hits, starts }
+    pub(crate) fn new(media: &'a MediumTable, paths: &'a Paths, hits: &'a Hits, starts: &'a LightStarts) -> Self {
+        Self { media, paths, hits, starts }
     }
 
     /// How many there are.
@@ -60,7 +62,7 @@ impl<'a> Segments<'a> {
     pub fn flux(&self, segment: usize, distance: f32) -> [f32; 3] {
         let path = One.u(segment as u32);
         let way = distance - self.paths.rays.passed.distance(One, path).0;
-        let left = self.paths.media.gather(One, path).transmittance(One.f(way));
+        let left = self.paths.media.gather(One, path).transmittance(self.media, One.f(way));
         let flux = self.starts.carried(One, self.paths.track(One, path).slot, self.paths.carried(One, path).throughput);
         film_numbers(flux * left)
     }

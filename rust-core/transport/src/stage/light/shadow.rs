@@ -106,9 +106,7 @@ fn block_deep(limits: &Limits, trace: &mut ShadowTrace, shadows: &ShadowRays) {
 
 /// Multiplies contributions by the transmittance of the surfaces their rays passed, material by material.
 fn dim_by_surfaces(tables: &Tables, transport: &Transport, trace: &mut ShadowTrace, shadows: &mut ShadowRays, columns: &mut ChunkColumns) {
-    if tables.any_absorbing {
-        dispatch!(transport.execution, l => trace.depth.begin(l, &shadows.media, shadows.count));
-    }
+    trace.depth.clear();
     if tables.any_transparent && transport.limits.counts_straight() {
         block_deep(&transport.limits, trace, shadows);
     }
@@ -128,7 +126,7 @@ fn dim_by_surfaces(tables: &Tables, transport: &Transport, trace: &mut ShadowTra
     }
     trace.passed = passed;
     if tables.any_absorbing {
-        dispatch!(transport.execution, l => attenuate(l, shadows, trace));
+        dispatch!(transport.execution, l => attenuate(l, tables, shadows, trace));
     }
 }
 
@@ -158,15 +156,16 @@ fn dim_chunk<L: Lanes>(
         shadows.contribution.multiply(hit.ray as usize, factors, i);
     }
     if let Some(row) = tables.materials.interior(material) {
-        trace.depth.add(l, (&tables.materials.media, row), hits, &columns.surface.side);
+        trace.depth.add(row, hits, &columns.surface.side);
     }
 }
 
 /// Dims what shadow rays carry by what they go through.
 #[inline(always)]
-fn attenuate<L: Lanes>(l: L, shadows: &mut ShadowRays, trace: &ShadowTrace) {
+fn attenuate<L: Lanes>(l: L, tables: &Tables, shadows: &mut ShadowRays, trace: &mut ShadowTrace) {
+    trace.depth.add_up(l, &tables.materials.media, &shadows.media, &shadows.rays.t_max, shadows.count);
     for at in (0..shadows.count).step_by(L::COUNT) {
-        let left = trace.depth.transmittance(l, &shadows.rays.t_max, at);
+        let left = trace.depth.transmittance(l, at);
         shadows.contribution.store(shadows.contribution.load(l, at) * left, at);
     }
 }

@@ -44,7 +44,7 @@ fn pass_straight<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, chose
         return;
     }
     let before = chunk.paths.previous(chunk.l, point.path);
-    next.append(&point.straight_on(&straight_on(chunk, point), before, chunk.tables.any_volume), chosen);
+    next.append(&point.straight_on(&straight_on(chunk, point), before), chosen);
 }
 
 /// Starts subsurface random walks.
@@ -228,7 +228,7 @@ pub(crate) fn send_on<L: Lanes>(
         spread: point.core.spread + sample.roughness * CONE_PER_ROUGHNESS,
         flags: straight.select(point.core.flags | non_specular, scattered),
         counts: point.core.counts + straight.select(l.u(counts::STRAIGHT), counted),
-        media: point.media_towards(across, straight, chunk.tables.any_volume),
+        media: point.media_towards(across, straight),
         ..point.core
     };
     next.append(&PathLanes::start(ray, core).leaving(from, pdf).having_passed(passed), alive);

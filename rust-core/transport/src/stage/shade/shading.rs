@@ -147,14 +147,10 @@ fn absorb<L: Lanes>(
     point.core.media = chunk.paths.media.gather(l, point.path);
     // What is before the surface that it went straight through last is behind it.
     let distance = l.gather(&chunk.hits.t, point.path) - chunk.paths.rays.passed.distance(l, point.path);
-    point.core.throughput = point.core.throughput * point.core.media.transmittance(distance);
+    point.core.throughput = point.core.throughput * point.core.media.transmittance(&chunk.tables.materials.media, distance);
     let inside = material.surface.absorption(l, values, at);
     let entering = l.load(&chunk.columns.surface.side, at).gt(0.0);
-    let enclosed = match material.interior {
-        Some(row) => inside + chunk.tables.materials.media.absorption(l, row),
-        None => inside,
-    };
-    point.behind = point.core.media.behind(enclosed, entering, chunk.tables.any_volume);
+    point.behind = point.core.media.behind(inside, material.interior, entering);
 }
 
 /// Records the denoisers' guides and measured points; returns where lights can be sampled (not purely specular), and which paths go on.

@@ -7,7 +7,7 @@ use crate::graph::CHUNK;
 use crate::stage::find::closures::{ClosureHits, MaterialHits, each_closure};
 use crate::stage::find::sort::for_materials;
 use crate::stage::start::start_media::cross_all;
-use crate::state::media::StartRoom;
+use crate::state::start_room::StartRoom;
 use crate::state::rays::Rays;
 use crate::tables::Tables;
 use crate::tables::bodies::Body;

@@ -6,7 +6,7 @@ use crate::accumulate::deposit::film_numbers;
 use crate::media::set::MediaColumns;
 use crate::stage::find::closures::{ClosureHits, MaterialHits, each_closure};
 use crate::stage::find::sort::for_materials;
-use crate::state::media::StartRoom;
+use crate::state::start_room::StartRoom;
 use crate::state::rays::Rays;
 use crate::tables::Tables;
 use crate::tables::bodies::Body;
@@ -20,10 +20,10 @@ const DIRECTION: [f32; 3] = [0.233_25, 0.317_56, 0.919_11];
 /// Most surfaces of a mesh that are crossed.
 const MOST: usize = 4096;
 
-/// Absorption a metre at a place in rebased world space, R, G, B.
-pub(super) fn absorption_at(tables: &Tables, origin: [f32; 3]) -> [f32; 3] {
+/// The names of the media at a place in rebased world space, and the absorption a metre of the solid about it, R, G, B.
+pub(super) fn media_at(tables: &Tables, origin: [f32; 3]) -> ([u32; 2], [f32; 3]) {
     if !tables.bodies.all.iter().any(|body| body.may_hold(origin)) {
-        return [0.0; 3];
+        return ([0; 2], [0.0; 3]);
     }
     let mut rays = Rays::new(PADDING, ray_mask::ALL);
     for axis in 0..3 {
@@ -32,10 +32,11 @@ pub(super) fn absorption_at(tables: &Tables, origin: [f32; 3]) -> [f32; 3] {
     }
     let mut media = MediaColumns::new(PADDING);
     start_media(tables, Execution::Scalar, &tables.bodies.all, &rays, 1, &mut media, &mut StartRoom::default());
-    film_numbers(media.load(One, 0).absorption())
+    let (names, solid) = media.load(One, 0).parts();
+    (names.map(|word| word.0), film_numbers(solid))
 }
 
-/// Adds absorption a metre to `media` where the first `count` rays start, which look along their own directions for the bodies that hold them.
+/// Adds to `media` what is where the first `count` rays start, which look along their own directions for the bodies that hold them.
 pub(crate) fn start_media(
     tables: &Tables,
     execution: Execution,
@@ -50,12 +51,8 @@ pub(crate) fn start_media(
         return;
     }
     look_up(tables, execution, rays, room);
-    if tables.any_volume {
-        add_all(room, media);
-        dispatch!(execution, l => media.hold(l, count));
-    } else {
-        add_innermost(room, media);
-    }
+    enter_filled(room, media);
+    set_innermost(room, media);
 }
 
 /// Lists the rays that start within a body's bounds.
@@ -117,6 +114,8 @@ fn look_up(tables: &Tables, execution: Execution, rays: &Rays, room: &mut StartR
     let mut crossings = std::mem::take(&mut room.crossings);
     room.absorption = SpectrumColumns::new(padded(crossings.len()) + PADDING);
     room.sides.clear();
+    room.solid.clear();
+    room.filling.clear();
     for_materials(tables, &mut crossings, |material, chunk| {
         dispatch!(execution, l => look_up_chunk(l, tables, MaterialHits { material, hits: chunk, rays }, room));
         for i in 0..chunk.len() {
@@ -124,6 +123,8 @@ fn look_up(tables: &Tables, execution: Execution, rays: &Rays, room: &mut StartR
             room.absorption.add(at, &room.chunk, i, 1.0);
             room.sides.push(room.columns.surface.side[i]);
         }
+        room.solid.resize(room.sides.len(), tables.materials.is_solid(material));
+        room.filling.resize(room.sides.len(), tables.materials.interior(material).unwrap_or(0));
     });
     room.crossings = crossings;
 }
@@ -141,10 +142,6 @@ fn look_up_chunk<L: Lanes>(l: L, tables: &Tables, chunk: MaterialHits<'_>, room:
         #[inline(always)]
         |closure| add_inside(l, tables, closure, sums),
     );
-    if let Some(row) = tables.materials.interior(chunk.material) {
-        let filling = tables.materials.media.absorption(l, row);
-        (0..chunk.hits.len()).step_by(L::COUNT).for_each(|at| sums.store(sums.load(l, at) + filling, at));
-    }
 }
 
 /// Adds what a surface encloses, times its weights if it is a closure of several.
@@ -162,18 +159,26 @@ fn add_inside<L: Lanes>(l: L, tables: &Tables, mut closure: ClosureHits<'_>, sum
     }
 }
 
-/// Volumes add up: what rays leave more often than they enter.
-fn add_all(room: &StartRoom, media: &mut MediaColumns) {
-    for (i, (crossing, side)) in room.crossings.iter().zip(&room.sides).enumerate() {
-        media.add(crossing.ray as usize, &room.absorption, i, -side);
+/// What fills meshes overlaps: rays are in what they leave oftener than they enter.
+fn enter_filled(room: &StartRoom, media: &mut MediaColumns) {
+    let crossings = room.crossings.iter().zip(&room.filling).zip(&room.sides);
+    let mut filled: Vec<(u32, u32, bool)> =
+        crossings.filter(|((_, row), _)| **row != 0).map(|((crossing, row), side)| (crossing.ray, *row, *side < 0.0)).collect();
+    filled.sort_unstable();
+    for body in filled.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+        let (ray, row, _) = body[0];
+        let leaves = body.iter().filter(|(.., leaves)| *leaves).count();
+        for _ in body.len() - leaves..leaves {
+            media.store(media.load(One, ray as usize).entered(row, One.m(true)), ray as usize);
+        }
     }
 }
 
 /// Solids take each other's place: what the nearest surface encloses of those that hold the place. A surface that faces inwards bounds a hole, which takes
 /// away the solid about it.
-fn add_innermost(room: &StartRoom, media: &mut MediaColumns) {
-    let StartRoom { crossings, sides, absorption, .. } = room;
-    let mut order: Vec<usize> = (0..crossings.len()).collect();
+fn set_innermost(room: &StartRoom, media: &mut MediaColumns) {
+    let StartRoom { crossings, sides, absorption, solid, .. } = room;
+    let mut order: Vec<usize> = (0..crossings.len()).filter(|i| solid[*i]).collect();
     let (body, t) = (|i: &usize| (crossings[*i].ray, crossings[*i].instance), |i: &usize| crossings[*i].t);
     order.sort_unstable_by(|a, b| body(a).cmp(&body(b)).then(t(a).total_cmp(&t(b))));
     // By body: its nearest crossing, how much oftener the ray leaves it than it enters it, and where it leaves it first.
@@ -188,7 +193,7 @@ fn add_innermost(room: &StartRoom, media: &mut MediaColumns) {
         for (_, left, exit) in of_ray {
             holes -= left;
             if let Some(exit) = exit.filter(|_| holes < 0.0) {
-                media.add(crossings[exit].ray as usize, absorption, exit, 1.0);
+                media.set_solid(crossings[exit].ray as usize, absorption, exit);
                 break;
             }
         }

@@ -1,7 +1,7 @@
 //! What cameras and meters stand in; [`super::start_media`] and [`super::index`] look around them.
 
 use super::index::squared_indices_at;
-use super::start_media::absorption_at;
+use super::start_media::media_at;
 use crate::tables::Tables;
 use gonio_camera::Surroundings;
 
@@ -9,6 +9,6 @@ use gonio_camera::Surroundings;
 pub fn surroundings_at(tables: &Tables, places: &[[f64; 3]]) -> Vec<Surroundings> {
     let rebased: Vec<[f32; 3]> = places.iter().map(|place| [0, 1, 2].map(|axis| (place[axis] - tables.origin[axis]) as f32)).collect();
     let squared = squared_indices_at(tables, &rebased);
-    let absorption = rebased.iter().map(|place| absorption_at(tables, *place));
-    absorption.zip(squared).map(|(absorption, squared_index)| Surroundings { absorption, squared_index }).collect()
+    let media = rebased.iter().map(|place| media_at(tables, *place));
+    media.zip(squared).map(|((media, absorption), squared_index)| Surroundings { media, absorption, squared_index }).collect()
 }

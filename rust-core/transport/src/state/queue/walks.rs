@@ -127,6 +127,7 @@ impl Walks {
             counts: l.gather_integers(&self.counts, walk),
             width: l.gather(&self.width, walk),
             media: if any_absorbing { paths.media.gather(l, path) } else { MediaSet::open(l) },
+            unguided: paths.unguided(l, path),
             ..PathCore::new(l, l.gather_integers(&self.slot, walk), l.gather_integers(&self.flags, walk))
         }
     }

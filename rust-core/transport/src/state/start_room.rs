@@ -21,8 +21,11 @@ pub(crate) struct StartRoom {
     pub(crate) crossings: Vec<TransparentHit>,
     /// By crossing, 1 where the ray enters the body, else −1.
     pub(crate) sides: Vec<f32>,
-    /// By crossing, absorption a metre behind the surface.
+    /// By crossing, absorption a metre of the solid behind the surface, and whether there is one.
     pub(crate) absorption: SpectrumColumns,
+    pub(crate) solid: Vec<bool>,
+    /// By crossing, the row of what fills the body; 0 is nothing.
+    pub(crate) filling: Vec<u32>,
     /// Those of a chunk.
     pub(crate) chunk: SpectrumColumns,
     /// Weights of a mix over a chunk.
@@ -41,6 +44,8 @@ impl Default for StartRoom {
             crossings: Vec::new(),
             sides: Vec::new(),
             absorption: SpectrumColumns::new(0),
+            solid: Vec::new(),
+            filling: Vec::new(),
             chunk: SpectrumColumns::new(CHUNK),
             weights: MixWeights::default(),
             columns: ChunkColumns::default(),
