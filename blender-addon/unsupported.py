@@ -47,7 +47,6 @@ SCENES = {
     ),
     "bake": _untold("Bakes of the kind Shadow", "refused by name"),
     "bake denoising": Limit("Denoising of bakes where Blender's Python has no package pyoidn", "the bake keeps its noise"),
-    "caustics in bakes": _untold("Caustics by light paths in bakes", "paths from the texels look for them"),
     "spherical stereo": _untold("Spherical stereo of panoramas", "each eye's picture is seen from where it stands"),
     "freestyle": Limit("Freestyle lines", "left out"),
     "fast gi": Limit("Fast GI Approximation", "light is followed to the last bounce"),

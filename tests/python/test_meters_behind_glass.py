@@ -6,7 +6,7 @@ import gonio
 import numpy as np
 import pytest
 from small_scenes import QUAD
-from test_same_lux import MATT, lies, shell
+from test_same_lux import CLEAR, MATT, box, lies, shell, sphere, wall
 
 # Of a sphere of 5 mm and 3e6 cd/m².
 CANDELA = math.pi * 0.005**2 * 3e6
@@ -49,3 +49,40 @@ def test_where_a_disc_has_no_room_there_is_no_figure():
     assert np.isnan(found.meters[0].value)
     assert any("no room" in text for _, text in found.diagnostics)
     assert ",illuminance,,,lx," in found.csv()
+
+
+@pytest.mark.parametrize("glazed", [False, True])
+def test_daylight_factors_under_glass(glazed):
+    """A slab over the meter takes part of the sky's light away by its faces, and what lies under a white sphere of sky gets it from beside."""
+    scene = gonio.Scene()
+    scene.set(threads=2)
+    scene.add_light("dome", (1000.0,) * 3)
+    if glazed:
+        box(scene, [-50, -50, 1.0], [50, 50, 1.02], "pane", **CLEAR)
+    scene.add_meter((0, 0, 0), normal=(0, 0, 1), quantity="daylight-factor")
+    (meter,) = gonio.measure(scene, samples=256).meters
+    assert meter.value == pytest.approx(100.0, abs=4 * meter.standard_error + 0.2)
+
+
+def rated(lamp):
+    """UGR of a panel, before a wall that a lamp behind the observer lights."""
+    scene = gonio.Scene()
+    scene.set(threads=2)
+    place = (0, -3, 1)
+    if lamp:
+        scene.add_light("sphere", (3e6,) * 3, radius=0.05, transform=[[1, 0, 0, 0], [0, 1, 0, -3], [0, 0, 1, 1], [0, 0, 0, 1]])
+    if lamp == "in glass":
+        sphere(scene, 0.1, place, "outside", **CLEAR)
+        sphere(scene, 0.09, place, "inside", outwards=False, **CLEAR)
+    wall(scene, [[-3, 2, 0], [3, 2, 0], [3, 2, 3], [-3, 2, 3]], "wall", base_color=(0.8, 0.8, 0.8), **MATT)
+    scene.add_light("rectangle", (5000.0,) * 3, width=0.3, height=0.3, transform=[[1, 0, 0, 0], [0, 1, 0, 1.5], [0, 0, 1, 1.8], [0, 0, 0, 1]])
+    scene.add_meter((0, 0, 1), normal=(0, 0, 1), facing=(0, 1, 0), quantity="ugr")
+    (meter,) = gonio.measure(scene, samples=1024).meters
+    return meter
+
+
+def test_the_background_of_ugr_is_lit_through_glass():
+    without, bare, clothed = (rated(lamp) for lamp in (None, "bare", "in glass"))
+    error = math.hypot(bare.standard_error, clothed.standard_error)
+    assert clothed.value == pytest.approx(bare.value, abs=4 * error + 0.1)
+    assert without.value > clothed.value + 1, "the lamp lights the background"

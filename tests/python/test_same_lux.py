@@ -79,6 +79,12 @@ def tank(scene):
     box(scene, [-0.3, -0.3, 0.6], [0.3, 0.3, 1.1], "water", **{**CLEAR, "specular_ior": 1.33})
 
 
+def under_water(scene):
+    """A square at the bottom of a basin, which reaches below the floor."""
+    lamp(scene)
+    box(scene, [-0.5, -0.5, -0.1], [0.5, 0.5, 0.3], "water", **{**CLEAR, "specular_ior": 1.33})
+
+
 def lens(scene):
     lamp(scene)
     sphere(scene, 0.15, (0, 0, 0.75), "lens", squash=0.2, **CLEAR)
@@ -153,6 +159,7 @@ SCENES = {
     "tinted glass": (tinted_shell, GREY, {}),
     "solid glass": (solid, GREY, {}),
     "water": (tank, GREY, WIDE),
+    "under water": (under_water, GREY, WIDE),
     "lens": (lens, GREY, WIDE),
     "mirror": (mirror, GREY, WIDE),
     "black floor": (block, 0.0, {"picture": "a black floor shows nothing", **WIDE}),
@@ -162,6 +169,9 @@ SCENES = {
     "double glazing": (double_glazing, GREY, NO_LUMINAIRE),
     "prism": (prism, GREY, WIDE),
 }
+# What of it a picture shows through the water's surface, which mirrors two per cent; radiance thins out by the squared index on its way into the air.
+THROUGH_WATER = 1 - (0.33 / 2.33) ** 2
+SEEN = {"under water": {"pass": THROUGH_WATER, "picture": THROUGH_WATER / 1.33**2}}
 
 
 def built(make, reflectance):
@@ -239,6 +249,7 @@ def test_all_ways_give_the_same_lux(name, tmp_path):
     print(f"{name}: map {lux:.2f} ± {error:.2f} lx", *(f"{way} {value:.2f} ± {own:.2f}" for way, (value, own) in found.items()))
     assert lux > 1.0
     for way in found.keys() - left_out.keys():
-        value, own = found[way]
+        seen = SEEN.get(name, {}).get(way, 1.0)
+        value, own = (number / seen for number in found[way])
         assert abs(value - lux) < 4.0 * math.hypot(error, own) + 0.02 * lux, (name, way, value, own, lux, error)
         assert own < 0.1 * lux, (name, way, value, own)

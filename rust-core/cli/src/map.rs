@@ -150,7 +150,7 @@ fn wanted(options: &MapArguments) -> Result<MapOptions> {
         paths: options.paths,
         time_limit_s: options.time_limit,
         colours: options.colours,
-        memory: options.memory.saturating_mul(1 << 20),
+        memory: options.memory,
         max_bounces: options.max_bounces.unwrap_or(MOST_BOUNCES),
     })
 }

@@ -73,3 +73,29 @@ def test_meters_see_a_lamp_in_clear_glass(run, tmp_path):
     assert bare["value"] == pytest.approx(NITS * math.pi * 0.005**2 / 4, rel=1e-3)
     # 0.96 / 1.04 of it come straight; what the glass sends back meets the lamp's middle, and lamps block nothing.
     assert 0.96 / 1.04 * 0.98 < clothed["value"] / bare["value"] < 1.03
+
+
+SHELL = (("a", 0.3, "rightHanded"), ("b", 0.28, "leftHanded"))
+
+
+@pytest.mark.parametrize("options", [("--integrator", "direct"), ("--integrator", "whitted"), ("--max-bounces", 0)], ids=str)
+def test_meters_that_cannot_find_such_light_say_so(run, tmp_path, options):
+    at = ("--at", "0,0,-1.9999", "--normal", "0,0,1", "--spp", 16)
+    for balls in ((), SHELL):
+        done = run("measure", stage(tmp_path, *balls, radius=0.005), *at, *options)
+        assert done.returncode == 0 and ("leave out light that mirrors and clear glass send on" in done.stderr) == bool(balls), done.stderr
+
+
+@pytest.mark.parametrize("options", [("--integrator", "direct"), ("--caustics", "off"), ()], ids=str)
+def test_pictures_that_cannot_find_such_light_say_so(run, tmp_path, options):
+    path = stage(tmp_path, *SHELL, radius=0.005)
+    floor = (
+        'def Mesh "Floor" {\n int[] faceVertexCounts = [4]\n int[] faceVertexIndices = [0, 1, 2, 3]\n'
+        " point3f[] points = [(-1, -1, -1), (1, -1, -1), (1, 1, -1), (-1, 1, -1)]\n}\n"
+        'def Camera "Eye" {\n double3 xformOp:translate = (0, 0, 2)\n uniform token[] xformOpOrder = ["xformOp:translate"]\n}\n'
+    )
+    path.write_text(path.read_text().rstrip().removesuffix("}") + floor + "}\n")
+    line = ("render", path, "-o", tmp_path / "a.exr", "--res", 8, 8, "--spp", 1)
+    assert "leaves out light" not in run(*line, *options).stderr
+    done = run(*line, "--aov", "color,illuminance", *options)
+    assert done.returncode == 0 and ("the illuminance pass leaves out light" in done.stderr) == bool(options), done.stderr

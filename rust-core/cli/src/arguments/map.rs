@@ -1,6 +1,6 @@
 //! What `gonio map` takes.
 
-use super::number::{count, finite};
+use super::number::{count, finite, mebibytes};
 use super::{DaylightArguments, ScaleArguments, StageArguments, TextureArguments, WorkArguments};
 use clap::Args;
 use std::path::PathBuf;
@@ -35,7 +35,7 @@ pub(crate) struct MapArguments {
     #[arg(long, value_name = "SHARE", default_value = "5%")]
     pub(crate) error: String,
     /// Stop after so many light paths.
-    #[arg(long, value_name = "COUNT", default_value_t = 1 << 26, value_parser = count::<u64>(1..=u64::MAX))]
+    #[arg(long, value_name = "COUNT", default_value = "64M", value_parser = count::<u64>(1..=u64::MAX))]
     pub(crate) paths: u64,
     /// Stop after so many seconds.
     #[arg(long = "time-limit", value_name = "SECONDS", default_value_t = 0.0, value_parser = finite::<f64>)]
@@ -43,8 +43,8 @@ pub(crate) struct MapArguments {
     /// Keep red, green and blue too.
     #[arg(long)]
     pub(crate) colours: bool,
-    /// Most mebibytes for maps.
-    #[arg(long, value_name = "MIB", default_value_t = 1024)]
+    /// Most memory for maps, as 512M or 4G; digits alone are mebibytes.
+    #[arg(long, value_name = "SIZE", default_value = "1G", value_parser = mebibytes)]
     pub(crate) memory: u64,
     /// Limit of the bounces; without one all count that matter.
     #[arg(long = "max-bounces", value_name = "COUNT", value_parser = count::<u32>(0..=u64::from(u32::MAX)))]

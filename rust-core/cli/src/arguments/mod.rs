@@ -138,7 +138,7 @@ pub(super) enum Command {
     /// EULUMDAT file; the other lights stand in the schedule with what is known of them.
     #[command(after_long_help = REPORT_EXAMPLES)]
     Report(Box<ReportOptions>),
-    /// Rate glare in a fisheye picture of luminances: UGR and DGP, and the sources that cause it.
+    /// Rate glare in a picture of luminances, a fisheye or a perspective: UGR and DGP, and the sources that cause it.
     Glare(GlareArguments),
     /// Measure every stage of rendering at every SIMD level against one lane.
     Bench(BenchOptions),

@@ -1,5 +1,6 @@
 //! Numbers on the command line, in the same forms for all commands.
 
+use gonio::scene::parse_bytes;
 use std::{fmt::Display, ops::RangeInclusive, str::FromStr};
 
 /// Factors of a count's last letter.
@@ -30,6 +31,14 @@ pub(crate) fn finite<T: FromStr + Display + Into<f64> + Copy>(text: &str) -> Res
     value.ok_or_else(|| format!("'{text}' was found, expected a number"))
 }
 
+/// Reads an amount of memory, bytes: `512M`, `4G`; digits alone are mebibytes.
+pub(crate) fn mebibytes(text: &str) -> Result<u64, String> {
+    match text.trim().parse::<u64>() {
+        Ok(number) => Ok(number.saturating_mul(1 << 20)),
+        Err(_) => parse_bytes(text),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -46,6 +55,12 @@ mod tests {
         }
         assert_eq!(count::<u64>(0..=u64::MAX)("18446744073709551615"), Ok(u64::MAX));
         assert_eq!(count::<u32>(0..=u64::from(u32::MAX))("5G").ok(), None);
+    }
+
+    #[test]
+    fn memory_is_in_mebibytes_or_says_its_unit() {
+        assert_eq!(["1024", "512M", "1G"].map(|text| mebibytes(text).ok()), [Some(1 << 30), Some(512 << 20), Some(1 << 30)]);
+        assert!(mebibytes("-1").is_err() && mebibytes("x").is_err());
     }
 
     #[test]

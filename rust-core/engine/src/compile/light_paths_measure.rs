@@ -77,6 +77,22 @@ pub(crate) fn for_meters(scene: &CompiledScene, settings: &Settings, cancel: &At
     Some(starts.collect()).filter(|starts: &Vec<bool>| starts.contains(&true))
 }
 
+/// Scatterings that light has on its way through a pane.
+const THROUGH_A_PANE: u32 = 2;
+
+/// Whether paths with these settings miss light that mirrors and clear glass send on, while none of light is followed: by other integrators than path
+/// tracing, without caustics, or where paths end before they are through.
+pub(crate) fn is_left_out(scene: &CompiledScene, settings: &Settings, cancel: &AtomicBool) -> bool {
+    let max_bounces = settings.max_bounces.max(THROUGH_A_PANE);
+    let whole = Settings { integrator: Integrator::Path, caustics: Caustics::Auto, max_bounces, ..settings.clone() };
+    settings.integrator != Integrator::Light && for_meters(scene, &whole, cancel).is_some()
+}
+
+/// Whether meters' paths end before light can have come through glass.
+pub(crate) fn are_followed(settings: &Settings) -> bool {
+    settings.integrator == Integrator::Path && settings.max_bounces >= THROUGH_A_PANE
+}
+
 /// What arrives of each light, and its part of what leaves the scene by what of all arrives: a meter may stand where no surface is.
 fn with_escaped(brought: &[Brought], escaped: &Brought) -> Vec<Brought> {
     let arrived: f64 = brought.iter().map(|b| b.straight + b.by_casters).sum();

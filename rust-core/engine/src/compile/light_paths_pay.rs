@@ -5,7 +5,7 @@ use super::{casters, compiled::CompiledScene, light_paths_measure, view};
 use crate::{
     error::{Diagnostic, Result},
     light::{EmissionSampler, LightKind, LightRecord, LightTexture},
-    scene::{Aov, Caustics, Integrator, Scene, Settings},
+    scene::{Aov, Caustics, Integrator, Origin, Scene, Settings},
     transport::{Arrivals, Arriving, Emission, Escapes, LIGHT_BATCH, LightTracer, Receiver, Wanted},
 };
 use gonio_simd::Execution;
@@ -108,8 +108,16 @@ pub(super) fn decide(compiled: &mut CompiledScene, scene: &Scene, of_light: &[u3
     if traced {
         casters::report_blockers(scene, &compiled.tables.links, &mut compiled.diagnostics);
     }
+    let sought = scene.settings.caustics == Caustics::Off || !are_possible(compiled, &scene.settings);
+    if sought && scene.settings.aovs.contains(&Aov::Illuminance) && light_paths_measure::is_left_out(compiled, &scene.settings, cancel) {
+        compiled.diagnostics.push(Diagnostic::warning(&Origin::default(), ILLUMINANCE_IN_PART));
+    }
     Ok(())
 }
+
+/// Said where the illuminance pass is not all of it.
+const ILLUMINANCE_IN_PART: &str = "the illuminance pass leaves out light that mirrors and clear glass send on: it comes by light paths, which these \
+    settings do without; they run with the integrator path, caustics auto or on, and samples that are the same number in all pixels";
 
 /// Whether illuminances are wanted of light that camera paths would seldom or never find, be it a small part of all.
 fn is_measured(compiled: &CompiledScene, scene: &Scene, cancel: &AtomicBool) -> bool {

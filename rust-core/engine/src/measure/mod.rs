@@ -124,6 +124,9 @@ fn read(
         if let (Some(radii), Some(first)) = (sensed.discs, meters.first()) {
             diagnostics.push(Diagnostic::info(&first.origin, on_discs(radii)));
         }
+        if let (true, Some(first)) = (sensed.in_part, meters.first()) {
+            diagnostics.push(Diagnostic::warning(&first.origin, IN_PART));
+        }
         if let (1.., Some(first)) = (sensed.missed, meters.first()) {
             diagnostics.push(Diagnostic::info(&first.origin, behind_rough_glass(sensed.missed)));
         }
@@ -150,6 +153,10 @@ fn read(
     }
     Ok(readings)
 }
+
+/// Said where settings leave out what meters exist to find.
+const IN_PART: &str = "the figures leave out light that mirrors and clear glass send on: it comes by light paths, which these settings do without; they run \
+    with the integrator path and two bounces at least";
 
 /// Says over what the light is a mean that light paths bring.
 fn on_discs([least, most]: [f64; 2]) -> String {

@@ -107,6 +107,8 @@ pub(super) struct Sensed {
     pub(super) readings: Vec<Reading>,
     /// Least and greatest radius of the discs that such light was counted on, metres; none where there is no such light.
     pub(super) discs: Option<[f64; 2]>,
+    /// Whether light that mirrors and clear glass send on is left out, as the settings have it.
+    pub(super) in_part: bool,
     /// At how many probes light paths found more behind rough glass than the probes' own paths, and took their place.
     pub(super) missed: usize,
 }
@@ -128,8 +130,9 @@ pub(super) fn sense(
     let starts = light_paths_measure::for_meters(scene, &settings, watch.cancel);
     let light_paths = starts.and_then(|starts| LightPaths::bringing(scene, &starts));
     let rough = light_paths_measure::is_behind_rough_glass(scene, &settings);
+    let in_part = !light_paths_measure::are_followed(&settings) && light_paths_measure::is_left_out(scene, &settings, watch.cancel);
     if light_paths.is_none() && !rough {
-        return Ok(Sensed { readings: sensing.readings(watch.progress)?, discs: None, missed: 0 });
+        return Ok(Sensed { readings: sensing.readings(watch.progress)?, discs: None, in_part, missed: 0 });
     }
     let of = |(probe, sensor): (&Probe, &Sensor)| if probe.looks { Disc::default() } else { Disc::of(sensor, probe.reach, scene) };
     let discs = Discs::new(probes.iter().zip(&sensors).map(of).collect());
@@ -140,7 +143,7 @@ pub(super) fn sense(
     let (readings, missed) = if rough { with_missed(&sensing, &discs, readings, watch)? } else { (readings, 0) };
     let radii = || discs.all().iter().map(|disc| disc.radius).filter(|radius| *radius > 0.0);
     let widest = radii().reduce(f64::max);
-    Ok(Sensed { readings, discs: widest.map(|widest| [radii().fold(widest, f64::min), widest]), missed })
+    Ok(Sensed { readings, discs: widest.map(|widest| [radii().fold(widest, f64::min), widest]), in_part, missed })
 }
 
 /// With the light that light paths bring: to all surfaces as photons, and to the meters on discs.

@@ -11,6 +11,7 @@ use crate::stage::light::shadow;
 use crate::stage::shade::catcher;
 use crate::stage::shade::integrator::Integrator;
 use crate::stage::shade::shading::shade_chunk;
+use crate::stage::start::index::weigh_points;
 use crate::state::chunk::{ChunkColumns, ChunkContext};
 use crate::state::paths::Paths;
 use crate::state::queue::shadow_rays::hits_together;
@@ -117,6 +118,12 @@ pub(crate) fn measure<I: Integrator>(tracer: &Tracer<'_>, integrator: &I, sample
         });
     }
     ws.queues.measure.count = 0;
+}
+
+/// The same for points that paths have found.
+pub(crate) fn measure_found<I: Integrator>(tracer: &Tracer<'_>, integrator: &I, sample: &SampleContext<'_>, ws: &mut Workspace) {
+    weigh_points(tracer.tables, &tracer.transport, &mut ws.queues.measure);
+    measure(tracer, integrator, sample, ws);
 }
 
 /// Traces the queue of shadow rays if those of some more hits would not fit into it.

@@ -1,8 +1,8 @@
 //! Light paths' own state: the flux that each started with, and what a bounce brings: flux that arrived, escaped or may reach the camera.
 
 use crate::state::columns::{Columns3, append3, columns3};
-use crate::state::start_room::StartRoom;
 use crate::state::queue::shadow_rays::ShadowRays;
+use crate::state::start_room::StartRoom;
 use crate::state::textured_emission::EmissionRoom;
 use crate::words::{flag, ray_mask};
 use gonio_camera::sampler::{BATCH, CAPACITY};

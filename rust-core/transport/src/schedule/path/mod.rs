@@ -62,7 +62,7 @@ fn follow_bounce(
     let time = Instant::now();
     let context = WalkContext { tables, transport, sample, paths: &ws.paths, times: &ws.times, lit: true };
     ws.statistics.rays += walk(&context, &mut ws.walk_hits, &mut ws.chunk, &mut ws.queues, &mut ws.deposits, cancelled);
-    steps::measure(tracer, integrator, sample, ws);
+    steps::measure_found(tracer, integrator, sample, ws);
     steps::trace_shadows(tracer, sample.depth == 0, ws);
     ws.statistics.spent(Stage::Shadow, time);
 }

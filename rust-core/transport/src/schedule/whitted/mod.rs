@@ -64,7 +64,7 @@ fn follow_batch(tracer: &Tracer<'_>, integrator: &WhittedIntegrator<'_>, sample:
         sort_by_material(tables, transport, &mut ws.materials);
         steps::shade(tracer, integrator, sample, ws);
         let start = Instant::now();
-        steps::measure(tracer, integrator, sample, ws);
+        steps::measure_found(tracer, integrator, sample, ws);
         steps::trace_shadows(tracer, sample.depth == 0, ws);
         ws.statistics.spent(Stage::Shadow, start);
         ws.queues.branches.queue(sample.depth + 1);

@@ -7,11 +7,13 @@ use crate::graph::CHUNK;
 use crate::stage::find::closures::{ClosureHits, MaterialHits, each_closure};
 use crate::stage::find::sort::for_materials;
 use crate::stage::start::start_media::cross_all;
-use crate::state::start_room::StartRoom;
+use crate::state::queue::measure_points::MeasurePoints;
 use crate::state::rays::Rays;
+use crate::state::start_room::StartRoom;
 use crate::tables::Tables;
 use crate::tables::bodies::Body;
 use crate::tables::material::parameter_values;
+use crate::tables::transport::Transport;
 use crate::words::ray_mask;
 use gonio_bsdf::{Hits, Lobes};
 use gonio_camera::sampler::BATCH;
@@ -26,6 +28,8 @@ const DIRECTIONS: [[f32; 3]; 6] = [
     [-0.196_46, 0.941_09, -0.275_29],
     [0.196_46, -0.941_09, 0.275_29],
 ];
+/// Errors of a position that are well before the surface it lies on.
+const BEFORE: f32 = 16.0;
 /// Squared indices so near to 1 are those of nothing.
 const NOTHING: f32 = 1e-4;
 
@@ -45,6 +49,22 @@ pub fn squared_indices_at(tables: &Tables, places: &[[f32; 3]]) -> Vec<f32> {
         found.extend((0..places.len()).map(|place| agreed(ways.each_ref().map(|squares| squares[place]))));
     }
     found
+}
+
+/// Multiplies what points bring that paths have found by the squared index of what they lie in, over that of what the camera is in: paths carry radiance
+/// over it.
+pub(crate) fn weigh_points(tables: &Tables, transport: &Transport, points: &mut MeasurePoints) {
+    if tables.bodies.refracting.is_empty() {
+        return;
+    }
+    let before = |i: usize| {
+        let off = BEFORE * points.error[i].abs();
+        [0, 1, 2].map(|axis| points.geometric_normal[axis][i].mul_add(off, points.position[axis][i]))
+    };
+    let places: Vec<[f32; 3]> = (0..points.count).map(before).collect();
+    for (i, square) in squared_indices_at(tables, &places).into_iter().enumerate() {
+        points.throughput.scale(i, square / transport.squared_index);
+    }
 }
 
 /// Bodies whose bounds hold one of some places.
