@@ -1,6 +1,6 @@
 //! The benchmark runs every stage at every level, and all levels do the same work. Nothing is timed.
 
-use gonio_bench::{Options, Report, Stage, plot, run};
+use gonio_bench::{Options, Report, Spread, Stage, paper, plot, run};
 use gonio_simd::Execution;
 use std::sync::{LazyLock, atomic::AtomicBool};
 
@@ -59,4 +59,25 @@ fn machines_and_browsers_can_read_the_figures() {
     let chart = roxmltree::Document::parse(&svg).expect("well-formed XML");
     let bars = chart.descendants().filter(|node| node.has_tag_name("rect")).count();
     assert!(bars > REPORT.rows.iter().map(|row| row.levels.len()).sum());
+}
+
+#[test]
+fn every_row_has_its_figure_in_the_paper() {
+    let options = Options { stages: vec![Stage::PaperBrdf, Stage::PaperLight], seconds: 0.0, ..Options::default() };
+    let report = run(&options, &AtomicBool::new(false), |_| ()).expect("it is measured");
+    assert_eq!(report.rows.len(), 11);
+    let page = paper(&report);
+    for row in &report.rows {
+        let line = page.lines().find(|line| line.contains(&format!("| {} |", row.name)));
+        assert!(line.is_some_and(|line| !line.contains('–')), "{}: {page}", row.name);
+    }
+    assert!(page.contains("| with a goniogram |") && !page.contains("Table 4"), "{page}");
+}
+
+#[test]
+fn a_spread_is_the_median_and_the_quartiles() {
+    let spread = Spread::of(vec![5.0, 1.0, 3.0, 2.0, 4.0]);
+    assert_eq!(spread, Spread { median: 3.0, low: 2.0, high: 4.0 });
+    assert_eq!(Spread::of(vec![1.0, 2.0]).median, 1.5);
+    assert!(Spread::of(Vec::new()).median.is_nan());
 }

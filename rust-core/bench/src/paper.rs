@@ -139,24 +139,3 @@ fn frames(report: &Report) -> String {
     }
     text
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{Options, run};
-    use std::sync::atomic::AtomicBool;
-
-    #[test]
-    fn every_row_has_its_figure_in_the_paper() {
-        let options = Options { stages: vec![Stage::PaperBrdf, Stage::PaperLight], seconds: 0.0, ..Options::default() };
-        let report = run(&options, &AtomicBool::new(false), |_| {}).expect("it is measured");
-        assert_eq!(report.rows.len(), 11);
-        for row in &report.rows {
-            assert!(gained(row).is_some(), "{}", row.name);
-            let apart = row.levels.iter().map(|figure| (figure.outcome / row.baseline_outcome - 1.0).abs());
-            assert!(apart.fold(0.0, f64::max) <= row.tolerance, "{}: levels differ", row.name);
-        }
-        let page = paper(&report);
-        assert!(page.contains("| with a goniogram |") && !page.contains("Table 4"), "{page}");
-    }
-}

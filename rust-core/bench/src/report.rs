@@ -204,16 +204,3 @@ pub(super) fn row(stage: Stage, case: &Case, variants: &[Variant], baseline: usi
             .collect(),
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_spread_is_the_median_and_the_quartiles() {
-        let spread = Spread::of(vec![5.0, 1.0, 3.0, 2.0, 4.0]);
-        assert_eq!(spread, Spread { median: 3.0, low: 2.0, high: 4.0 });
-        assert_eq!(Spread::of(vec![1.0, 2.0]).median, 1.5);
-        assert!(Spread::of(Vec::new()).median.is_nan());
-    }
-}

@@ -41,13 +41,13 @@ pub(super) fn of(
     };
     let bodies: Vec<(&Fill, Body)> = rows.enumerate().filter_map(body).collect();
     let that = |holds: fn(&Fill) -> bool| bodies.iter().filter(|(fill, _)| holds(fill)).map(|(_, body)| *body).collect::<Vec<_>>();
-    let (all, refracting) = (that(|fill| fill.absorbs), that(|fill| fill.refracts));
+    let (absorbing, refracting) = (that(|fill| fill.absorbs), that(|fill| fill.refracts));
     let balls: Vec<([f32; 3], f32)> = (0..lights.len() as u32).filter_map(|light| lights.ball(light)).collect();
-    let around_lights = match all.len().saturating_mul(balls.len()) <= MOST_PAIRS {
-        true => all.iter().filter(|body| balls.iter().any(|ball| meets(body, ball))).copied().collect(),
-        false => all.clone(),
+    let around_lights = match absorbing.len().saturating_mul(balls.len()) <= MOST_PAIRS {
+        true => absorbing.iter().filter(|body| balls.iter().any(|ball| meets(body, ball))).copied().collect(),
+        false => absorbing.clone(),
     };
-    Bodies { all, around_lights, refracting }
+    Bodies { absorbing, around_lights, refracting }
 }
 
 /// What the placements of a set are full of.

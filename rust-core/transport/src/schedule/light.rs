@@ -113,7 +113,7 @@ impl LightTracer<'_> {
     fn find_media(&self, ws: &mut Workspace) {
         let bodies = match self.emission {
             Emission::Lights(_) => &self.tables.bodies.around_lights,
-            Emission::Rays(_) => &self.tables.bodies.all,
+            Emission::Rays(_) => &self.tables.bodies.absorbing,
         };
         if bodies.is_empty() {
             return;

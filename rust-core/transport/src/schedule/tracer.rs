@@ -9,7 +9,6 @@ use crate::stage::find::covered::find_covered;
 use crate::stage::find::intersect::find_first;
 use crate::stage::shade::integrator::Integrator;
 use crate::stage::start::generate::{TileArea, generate, generate_at};
-use crate::stage::start::index::weigh_points;
 use crate::stage::start::places::{PlaceBatch, PlaceTable, Started, look_at_places, start_places};
 use crate::stage::start::sensors::{SensorTable, start_sensors};
 use crate::state::sample::SampleContext;
@@ -136,7 +135,6 @@ impl Tracer<'_> {
                         Started { paths: &mut *paths, hits: &mut nearest.hits, points: &mut queues.measure, covered: &covered[..] };
                     start_places(l, self.tables, table, places, &mut started);
                 });
-                weigh_points(self.tables, &self.transport, &mut ws.queues.measure);
                 if table.looks() { 0 } else { self.begin_measuring(integrator, batch, ws) }
             }
             Start::Lights => {

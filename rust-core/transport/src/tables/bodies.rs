@@ -13,7 +13,7 @@ pub struct Body {
 #[derive(Clone, Debug, Default)]
 pub struct Bodies {
     /// Each that absorbs.
-    pub all: Vec<Body>,
+    pub absorbing: Vec<Body>,
     /// Those of them that lamps may stand in.
     pub around_lights: Vec<Body>,
     /// Each that refracts.

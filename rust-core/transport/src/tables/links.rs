@@ -14,7 +14,7 @@ pub struct Links {
     pub shadows: Vec<u32>,
     /// Which instances block the lights of a row.
     pub blockers: Blockers,
-    /// The row for which [`super::ray_mask::LINKED_SHADOW`] tells what blocks; 0 if there is none.
+    /// The row for which [`crate::words::ray_mask::LINKED_SHADOW`] tells what blocks; 0 if there is none.
     pub by_mask: u32,
 }
 

@@ -22,7 +22,7 @@ const MOST: usize = 4096;
 
 /// The names of the media at a place in rebased world space, and the absorption a metre of the solid about it, R, G, B.
 pub(super) fn media_at(tables: &Tables, origin: [f32; 3]) -> ([u32; 2], [f32; 3]) {
-    if !tables.bodies.all.iter().any(|body| body.may_hold(origin)) {
+    if !tables.bodies.absorbing.iter().any(|body| body.may_hold(origin)) {
         return ([0; 2], [0.0; 3]);
     }
     let mut rays = Rays::new(PADDING, ray_mask::ALL);
@@ -31,7 +31,7 @@ pub(super) fn media_at(tables: &Tables, origin: [f32; 3]) -> ([u32; 2], [f32; 3]
         rays.direction[axis][0] = DIRECTION[axis];
     }
     let mut media = MediaColumns::new(PADDING);
-    start_media(tables, Execution::Scalar, &tables.bodies.all, &rays, 1, &mut media, &mut StartRoom::default());
+    start_media(tables, Execution::Scalar, &tables.bodies.absorbing, &rays, 1, &mut media, &mut StartRoom::default());
     let (names, solid) = media.load(One, 0).parts();
     (names.map(|word| word.0), film_numbers(solid))
 }

@@ -36,7 +36,7 @@ pub(crate) struct ShadowLanes<L: Lanes> {
 /// What shadow rays take along from where they start.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Along<L: Lanes> {
-    /// What they start in, where anything fills meshes.
+    /// What they start in, where anything absorbs.
     media: Option<MediaSet<L>>,
     /// Surfaces that their paths have gone straight through, where their number is limited.
     straight: Option<U<L>>,
@@ -70,7 +70,7 @@ pub(crate) struct ShadowRays {
     pub(crate) shares: [SpectrumColumns; 2],
     /// Classes of receivers; filled where the light cache learns.
     pub(crate) receiver: Column<u32>,
-    /// What rays start in; filled where anything fills meshes.
+    /// What rays start in; filled where anything absorbs.
     pub(crate) media: MediaColumns,
     /// Surfaces that paths have gone straight through; filled where anything is transparent and their number is limited.
     pub(crate) straight: Column<u32>,
