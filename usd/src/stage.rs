@@ -4,6 +4,7 @@ mod clips;
 mod faces;
 mod grid;
 mod info;
+mod multiplied;
 mod open;
 mod placed;
 mod problem;

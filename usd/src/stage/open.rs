@@ -1,7 +1,7 @@
 //! Opening a stage: its layers, what of it is populated, and its variants.
 
-use super::clips;
 use super::problem::{format_error, unreadable};
+use super::{clips, multiplied};
 use crate::memory_limit::MemoryLimit;
 use crate::options::StageOptions;
 use crate::prim::Prim;
@@ -70,6 +70,7 @@ fn open_layers<'py>(
     if std::fs::metadata(path).is_ok_and(|found| found.len() <= MOST_SEARCHED) {
         check_references(path, &root).map_err(|error| unreadable(py, path, &error))??;
         clips::check(path, &root, diagnostics).map_err(|error| unreadable(py, path, &error))??;
+        multiplied::check(path, &root).map_err(|error| unreadable(py, path, &error))??;
     }
     if let Some(layer) = &options.session_layer {
         check_file(layer)?;
