@@ -16,7 +16,8 @@ use gonio::{
     compile::compile,
     light_paths::Watch,
     map::{
-        IlluminationMaps, MapOptions, Quantity, SurfaceMap, TexelSize, divided_meshes, illumination_maps, map_layer, view, write_map_exr,
+        IlluminationMaps, Looks, MapOptions, Quantity, SurfaceMap, TexelSize, divided_meshes, illumination_maps, map_layer, view,
+        write_map_exr,
     },
     measure::MOST_BOUNCES,
     output::FalseColour,
@@ -96,7 +97,8 @@ fn run(
     }
     let written = write(options, scene, &maps, stage)?;
     for path in options.output.iter().filter(|path| ending(path) == "png") {
-        let (values, size) = view(&maps, &compiled, &scene.settings, quantity, VIEW_SIDE, Execution::detect())?;
+        let (values, size) =
+            view(&maps, &compiled, &scene.settings, quantity, Looks { side: VIEW_SIDE, smooth: true }, Execution::detect())?;
         let scale = falsecolor::scale(&options.scale, &values)?;
         let style = FalseColour { scale, unit: "lx".into(), contours: false, smoothing: 0, legend: true };
         falsecolor::write(path, &style.draw(&values, size))?;

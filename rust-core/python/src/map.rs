@@ -11,7 +11,7 @@ use gonio::{
     Error,
     compile::{CompiledScene, compile},
     light_paths::Watch,
-    map::{self, Chart, MapOptions, Quantity, SideMap, TexelSize, corners},
+    map::{self, Chart, Looks, MapOptions, Quantity, SideMap, TexelSize, corners},
     measure::MOST_BOUNCES,
 };
 use gonio_simd::Execution;
@@ -81,9 +81,10 @@ impl IlluminationMaps {
         self.maps.diagnostics.iter().map(|diagnostic| (diagnostic.origin.to_string(), diagnostic.message.clone())).collect()
     }
     /// Lux as the camera of a scene sees the surfaces, (height, width), rows from the top; nan where there is no map. The scene is the one that was
-    /// mapped, with any camera and size. `quantity` is illuminance, direct, indirect or error; a pixel looks `side` × `side` times.
-    #[pyo3(signature = (scene, *, quantity = "illuminance", side = 2))]
-    fn view(&self, py: Python<'_>, scene: &Scene, quantity: &str, side: u32) -> PyResult<Array> {
+    /// mapped, with any camera and size. `quantity` is illuminance, direct, indirect or error; a pixel looks `side` × `side` times. With `smooth` differences
+    /// that the values' standard errors explain go away, as in the command's pictures.
+    #[pyo3(signature = (scene, *, quantity = "illuminance", side = 2, smooth = false))]
+    fn view(&self, py: Python<'_>, scene: &Scene, quantity: &str, side: u32, smooth: bool) -> PyResult<Array> {
         let quantity = quantity_of(quantity)?;
         let description = scene.scene.clone();
         let seen = py.detach(|| {
@@ -91,7 +92,7 @@ impl IlluminationMaps {
             if compiled.tables.first_light_instance as usize != self.maps.of_instance.len() {
                 return Err(Error::setting("scene", "it has other surfaces than the one that was mapped"));
             }
-            map::view(&self.maps, &compiled, &description.settings, quantity, side, Execution::detect())
+            map::view(&self.maps, &compiled, &description.settings, quantity, Looks { side, smooth }, Execution::detect())
         });
         let (values, size) = seen.map_err(exception)?;
         Ok(Array::rows(values.into_iter().map(f64::from).collect(), size[0]))

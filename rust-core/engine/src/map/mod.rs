@@ -18,6 +18,7 @@ mod table;
 mod texels;
 mod usda;
 mod view;
+mod within_errors;
 
 pub use cells::{CellChart, corners};
 pub use divided::divided_meshes;
@@ -28,4 +29,4 @@ pub use side::{SideMap, Summary};
 pub use surface::MappedSurface;
 pub use texels::TexelChart;
 pub use usda::{FaceTable, map_layer};
-pub use view::{Quantity, view};
+pub use view::{Looks, Quantity, view};

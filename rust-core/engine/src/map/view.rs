@@ -4,6 +4,7 @@ use super::{
     gather::{Chart, IlluminationMaps, SurfaceMap},
     side::SideMap,
     smooth::{Facet, Smooth},
+    within_errors::{Seen, smoothed},
 };
 use crate::{
     accel::NONE,
@@ -32,7 +33,16 @@ pub enum Quantity {
     StandardError,
 }
 
-/// Lux by pixel of the settings' window, rows from the top; not a number where no map is seen. Each pixel looks `side` × `side` times.
+/// How a map is looked at.
+#[derive(Clone, Copy, Debug)]
+pub struct Looks {
+    /// Looks along a pixel's side.
+    pub side: u32,
+    /// Whether differences that the values' standard errors explain are smoothed away.
+    pub smooth: bool,
+}
+
+/// Lux by pixel of the settings' window, rows from the top; not a number where no map is seen.
 ///
 /// # Errors
 /// Settings and cameras that make no view.
@@ -41,7 +51,7 @@ pub fn view(
     scene: &CompiledScene,
     settings: &Settings,
     quantity: Quantity,
-    side: u32,
+    looks: Looks,
     execution: Execution,
 ) -> Result<(Vec<f32>, [usize; 2])> {
     let settings = Settings { antialiasing: Antialiasing::Sampled, aovs: Vec::new(), shader_passes: Vec::new(), ..settings.clone() };
@@ -57,13 +67,16 @@ pub fn view(
         min: window.min,
         width: size[0],
         quantity,
-        side: side.clamp(1, MOST_SIDE),
+        side: looks.side.clamp(1, MOST_SIDE),
     };
-    let mut values = vec![f32::NAN; size[0] * size[1]];
+    let mut seen = vec![Seen::NOTHING; size[0] * size[1]];
     let pixels = BATCH / (looking.side * looking.side) as usize;
-    in_pool(|| {
-        let chunks = values.par_chunks_mut(pixels).enumerate();
-        chunks.for_each_init(|| scene.workspaces.take(), |workspace, (number, values)| looking.look(number * pixels, values, workspace));
+    let values = in_pool(|| {
+        let chunks = seen.par_chunks_mut(pixels).enumerate();
+        chunks.for_each_init(|| scene.workspaces.take(), |workspace, (number, seen)| looking.look(number * pixels, seen, workspace));
+        // A standard error has none of its own.
+        let smooths = looks.smooth && quantity != Quantity::StandardError;
+        if smooths { smoothed(&seen, size[0]) } else { seen.iter().map(|pixel| pixel.value).collect() }
     });
     Ok((values, size))
 }
@@ -85,10 +98,10 @@ struct Looking<'a> {
 
 impl Looking<'_> {
     /// Fills some pixels in a row.
-    fn look(&self, first: usize, values: &mut [f32], workspace: &mut Workspace) {
+    fn look(&self, first: usize, seen: &mut [Seen], workspace: &mut Workspace) {
         let rays = (self.side * self.side) as usize;
         let (mut places, mut slots) = ([Vec::new(), Vec::new()], Vec::new());
-        for pixel in 0..values.len() {
+        for pixel in 0..seen.len() {
             let corner = [(first + pixel) % self.width, (first + pixel) / self.width];
             for ray in 0..rays as u32 {
                 let part = [ray % self.side, ray / self.side];
@@ -99,7 +112,7 @@ impl Looking<'_> {
             }
         }
         self.tracer.first_hits_at([&places[0], &places[1]], &slots, workspace);
-        let mut sums = vec![(0.0, 0u32); values.len()];
+        let mut counts = vec![0u32; seen.len()];
         let (slots, hits) = workspace.hits_by_slot();
         for (ray, slot) in slots.enumerate() {
             let instance = hits.instance[ray];
@@ -109,29 +122,37 @@ impl Looking<'_> {
             let Some(surface) = self.maps.of_instance.get(instance as usize).map(|number| *number as usize) else { continue };
             let Some(map) = self.maps.surfaces.get(surface) else { continue };
             let place = [hits.u[ray], hits.v[ray]];
-            let side = usize::from(self.is_back(instance, hits.primitive[ray], place));
+            let (back, normal) = self.facing(instance, hits.primitive[ray], place);
+            let side = usize::from(back);
             let value = match &self.smooth[surface][side] {
                 Some(smooth) => smooth.at(hits.primitive[ray], place),
                 None => map.at(side, hits.primitive[ray], place, self.quantity),
             };
+            let (pixel, error) = (slot as usize / rays, map.at(side, hits.primitive[ray], place, Quantity::StandardError));
             if value.is_finite() {
-                let sum = &mut sums[slot as usize / rays];
-                *sum = (sum.0 + value, sum.1 + 1);
+                counts[pixel] += 1;
+                let part = 1.0 / counts[pixel] as f32;
+                let found = &mut seen[pixel];
+                // The first look says which surface it is.
+                let before = if part < 1.0 { *found } else { Seen { value, standard_error: error, surface: 2 * surface + side, normal } };
+                *found = Seen {
+                    value: before.value + (value - before.value) * part,
+                    standard_error: before.standard_error + (error - before.standard_error) * part,
+                    ..before
+                };
             }
-        }
-        for (value, (sum, count)) in values.iter_mut().zip(sums) {
-            *value = if count > 0 { sum / count as f32 } else { f32::NAN };
         }
     }
 
-    /// Whether the camera sees a triangle's back at a place.
-    fn is_back(&self, instance: u32, primitive: u32, place: [f32; 2]) -> bool {
+    /// Whether the camera sees a triangle's back at a place, and its unit normal.
+    fn facing(&self, instance: u32, primitive: u32, place: [f32; 2]) -> (bool, [f32; 3]) {
         let (position, normal) = point(&self.tracer.tables.geometry, instance, primitive, place);
         let direction = match self.camera.lens {
             Lens::Orthographic => self.camera.axes[2].map(|x| -x),
             _ => [0, 1, 2].map(|k| position[k] - self.camera.position[k]),
         };
-        (0..3).map(|k| normal[k] * direction[k]).sum::<f32>() > 0.0
+        let length = normal.iter().map(|x| x * x).sum::<f32>().sqrt().max(f32::MIN_POSITIVE);
+        ((0..3).map(|k| normal[k] * direction[k]).sum::<f32>() > 0.0, normal.map(|x| x / length))
     }
 }
 

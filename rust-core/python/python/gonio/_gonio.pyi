@@ -343,6 +343,7 @@ class IlluminationMaps:
         *,
         quantity: str = "illuminance",
         side: int = 2,
+        smooth: bool = False,
     ) -> Array: ...
 
 def illumination_map(
