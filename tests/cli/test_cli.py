@@ -93,6 +93,16 @@ def test_lights_as_numbers_with_units(run, tmp_path):
     assert (sun["strength"], sun["unit"], sun["seen_by_camera"]) == (2, "cd/m²", True)
 
 
+@pytest.mark.parametrize("metres", [1, 0.01, 0.001])
+def test_a_normalized_sun_is_told_in_lux_whatever_the_unit(run, tmp_path, metres):
+    sun = 'def DistantLight "Sun"\n{\n    float inputs:angle = 0.53\n    float inputs:intensity = 50000\n    bool inputs:normalize = 1\n}\n'
+    stage = pictures.stage(tmp_path / "a.usda", sun, pictures.camera(), metres=metres)
+    (told,) = json.loads(run("info", stage, "--json").stdout)["lights"]
+    assert (told["strength"], told["unit"]) == (pytest.approx(50000), "lx on a facing surface")
+    for options in ((), ("--explain", "/Sun")):
+        assert "50000 lx on a facing surface" in run("info", stage, *options).stdout
+
+
 def test_info_of_a_frame_and_of_faults(run, tmp_path):
     stage = pictures.stage(tmp_path / "a.usda", pictures.ROOM, pictures.MOVING, pictures.camera(), pictures.BROKEN)
     said = json.loads(run("info", stage, "--json", "--frame", 3).stdout)

@@ -1,5 +1,6 @@
 """UsdLux lights: strength, shapes, shaping, textures, visibility."""
 
+import math
 import os
 import pathlib
 
@@ -64,6 +65,16 @@ def test_colour_temperature_is_that_of_usd_lux(tmp_path, kelvin):
     assert light(tmp_path, "SphereLight", body)["emission"]["radiance"] == pytest.approx(expected, rel=1e-5)
     disabled = light(tmp_path, "SphereLight", f"float inputs:colorTemperature = {kelvin}")
     assert disabled["emission"]["radiance"] == [1] * 3
+
+
+@pytest.mark.parametrize("kelvin", ["nan", "inf", "-inf", "-5", "0", "1e30"])
+def test_absurd_colour_temperatures_are_told_and_shine(tmp_path, kelvin):
+    body = f'def SphereLight "L"\n{{\n    bool inputs:enableColorTemperature = 1\n    float inputs:colorTemperature = {kelvin}\n}}\n'
+    (tmp_path / "absurd.usda").write_text(f"#usda 1.0\n{body}")
+    scene = gonio.load_usd(str(tmp_path / "absurd.usda"))
+    radiance = scene.to_dict()["lights"][0]["emission"]["radiance"]
+    assert all(0 <= part < math.inf for part in radiance) and max(radiance) > 0
+    assert any("colorTemperature" in said for _, said in scene.diagnostics) == (kelvin in ("nan", "inf", "-inf")), scene.diagnostics
 
 
 def test_normalize_measures_in_stage_units(tmp_path):
