@@ -157,6 +157,12 @@ def test_solids_are_what_they_are_whatever_else_there_is(elsewhere):
     assert np.allclose(below(1), 0.25, rtol=2e-4)
     # What goes straight on through a cut-out is not bent into it.
     assert np.allclose(below(1, geometry_opacity=0.0), 1.0, rtol=1e-6)
+    # A thin wall in it changes nothing of what lies behind.
+    scene = shining_floor()
+    filled(scene, (0, 1, 0), stretch=(1, 3, 1), closures=[closure("OpenPbr", **RESIN)], absorption=(0.0,) * 3)
+    wall = scene.add_material("wall", thin_walled=True, transmission_weight=1.0, specular_ior=1.0, specular_roughness=0.0)
+    scene.add_instance(scene.add_mesh(0.1 * FLOOR, QUAD), [wall], transform=at(0, 2.5, 0))
+    assert np.allclose(seen(scene), 1 / 64, rtol=5e-4)
     # A volume within a solid, and a solid within a volume.
     scene = shining_floor()
     filled(scene, (0, 1, 0), stretch=(1, 3, 1), closures=[closure("OpenPbr", **RESIN)], absorption=(0.0,) * 3)

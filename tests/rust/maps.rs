@@ -3,7 +3,7 @@
 use gonio::{
     compile::compile,
     light_paths::Watch,
-    map::{Chart, IlluminationMaps, MapOptions, Quantity, TexelSize, illumination_maps, view},
+    map::{Chart, IlluminationMaps, Looks, MapOptions, Quantity, TexelSize, illumination_maps, view},
     scene::{LightShape, Material, Mesh, Origin, Primvar, PrimvarInterpolation, Scene, Settings, Transform},
 };
 use gonio_simd::Execution;
@@ -153,7 +153,8 @@ fn cameras_see_finished_maps() {
     let compiled = compile(&scene, None, &AtomicBool::new(false)).expect("a scene");
     let maps = mapped(&scene, &options(0.25, 1 << 22)).expect("a map");
     let settings = Settings { resolution: [16, 16], ..scene.settings.clone() };
-    let (values, size) = view(&maps, &compiled, &settings, Quantity::Illuminance, 4, Execution::best()).expect("a view");
+    let looks = Looks { side: 4, smooth: false };
+    let (values, size) = view(&maps, &compiled, &settings, Quantity::Illuminance, looks, Execution::best()).expect("a view");
     assert_eq!(size, [16, 16]);
     for (pixel, lux) in values.iter().enumerate() {
         let [x, z] = [pixel % 16, pixel / 16].map(|at| (at as f64 + 0.5) * 0.25 - 2.0);

@@ -97,10 +97,14 @@ impl Surface {
     pub fn is_see_through(&self) -> bool {
         self.lobes.cut_out || self.lobes.straight || (self.switches.thin_walled && self.lobes.transmission)
     }
+    /// Whether it bounds a solid: it bends what goes in. Behind thin walls and what lets light through diffusely lies what is before them.
+    pub fn is_solid(&self) -> bool {
+        self.lobes.transmission && !self.switches.thin_walled
+    }
     /// Absorption coefficient of the inside, 1/m: the transmission colour is what is left of white light after the transmission depth.
     #[inline(always)]
     pub fn absorption<L: Lanes>(&self, l: L, values: &ParameterValues, at: usize) -> Spectrum<L> {
-        if self.switches.thin_walled || !self.lobes.transmission {
+        if !self.is_solid() {
             return Spectrum::zero(l);
         }
         let depth = values.get(l, p::TRANSMISSION_DEPTH, at);

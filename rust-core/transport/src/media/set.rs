@@ -41,15 +41,18 @@ impl<L: Lanes> MediaSet<L> {
         (self.names, self.solid)
     }
 
-    /// What is behind a surface that encloses a solid with this absorption, and what a row of the table fills.
+    /// What is behind a surface that encloses a solid with this absorption, if it does, and what a row of the table fills.
     #[inline(always)]
-    pub fn behind(self, solid: Spectrum<L>, filling: Option<u32>, entering: M<L>) -> Self {
+    pub fn behind(self, solid: Option<Spectrum<L>>, filling: Option<u32>, entering: M<L>) -> Self {
         let filled = match filling {
             Some(row) => self.entered(row, entering).left(row, !entering),
             None => self,
         };
-        // Leaving a solid leads to the open.
-        Self { solid: solid.keep_if(entering), ..filled }
+        match solid {
+            // Leaving a solid leads to the open.
+            Some(solid) => Self { solid: solid.keep_if(entering), ..filled },
+            None => filled,
+        }
     }
 
     /// With one medium more.

@@ -143,7 +143,7 @@ impl MaterialTable {
     }
     /// Whether what a material of the geometry covers is a solid, whose surface bends what goes in.
     pub fn is_solid(&self, number: u32) -> bool {
-        self.closures(number).iter().any(|closure| closure.surface.lobes.transmission && !closure.surface.switches.thin_walled)
+        self.closures(number).iter().any(|closure| closure.surface.is_solid())
     }
     /// What bends the normal where walks come out of a material of the geometry; of a mix that of its first closure with one.
     pub fn exit(&self, number: u32) -> Option<&Program> {

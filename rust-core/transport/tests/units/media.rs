@@ -65,12 +65,13 @@ fn each_body_of_a_medium_counts_and_strangers_are_not_left() {
 fn solids_take_the_place_of_what_is_before_them() {
     let (table, [_, water]) = table();
     let (yes, no) = (One.m(true), One.m(false));
-    let inside = MediaSet::open(One).behind(light(WATER), None, yes).behind(light(GLASS), None, yes);
+    let inside = MediaSet::open(One).behind(Some(light(WATER)), None, yes).behind(Some(light(GLASS)), None, yes);
     near(inside.transmittance(&table, One.f(1.0)), beer([1.0, 0.0]), "inside");
-    near(inside.behind(light(GLASS), None, no).transmittance(&table, One.f(1.0)), beer([0.0; 2]), "behind");
+    near(inside.behind(Some(light(GLASS)), None, no).transmittance(&table, One.f(1.0)), beer([0.0; 2]), "behind");
     near(inside.transmittance(&table, One.f(f32::MAX)), beer([0.0; 2]), "no solid is infinite");
+    near(inside.behind(None, None, yes).transmittance(&table, One.f(1.0)), beer([1.0, 0.0]), "behind a thin wall in it");
     // What fills a solid adds to it, and what goes straight on through its surface is in the filling alone.
-    let (open, filled) = (MediaSet::open(One), MediaSet::open(One).behind(light(GLASS), Some(water), yes));
+    let (open, filled) = (MediaSet::open(One), MediaSet::open(One).behind(Some(light(GLASS)), Some(water), yes));
     near(filled.transmittance(&table, One.f(1.0)), beer([1.0, 1.0]), "a filled solid");
     near(open.towards(filled, yes, yes).transmittance(&table, One.f(1.0)), beer([0.0, 1.0]), "straight on");
     near(open.towards(filled, yes, no).transmittance(&table, One.f(1.0)), beer([1.0, 1.0]), "bent");

@@ -148,9 +148,10 @@ fn absorb<L: Lanes>(
     // What is before the surface that it went straight through last is behind it.
     let distance = l.gather(&chunk.hits.t, point.path) - chunk.paths.rays.passed.distance(l, point.path);
     point.core.throughput = point.core.throughput * point.core.media.transmittance(&chunk.tables.materials.media, distance);
-    let inside = material.surface.absorption(l, values, at);
+    let surface = &material.surface;
+    let solid = if surface.is_solid() { Some(surface.absorption(l, values, at)) } else { None };
     let entering = l.load(&chunk.columns.surface.side, at).gt(0.0);
-    point.behind = point.core.media.behind(inside, material.interior, entering);
+    point.behind = point.core.media.behind(solid, material.interior, entering);
 }
 
 /// Records the denoisers' guides and measured points; returns where lights can be sampled (not purely specular), and which paths go on.
