@@ -64,7 +64,7 @@ impl OpticalDepth {
 fn along(table: &MediumTable, mut media: MediaSet<One>, crossings: &[Crossing], end: f32) -> Spectrum<One> {
     let (mut depth, mut start) = (Spectrum::zero(One), 0.0);
     for Crossing { t, row, entering, .. } in crossings {
-        depth = depth + media.extinction(table) * One.f(t - start);
+        depth += media.extinction(table) * One.f(t - start);
         media = if *entering { media.entered(*row, One.m(true)) } else { media.left(*row, One.m(true)) };
         start = *t;
     }
