@@ -111,7 +111,7 @@ impl Render {
         let light_paths = bring(&mut transport, brought, FirstLight::Discs);
         let window = Crop { min: [0; 2], max: settings.resolution };
         let film = film_of(&scene, settings, window, 1.0);
-        Self::run(scene, settings, Source::Sensors { sensors, transport }, film, light_paths, round)
+        Self::run(scene, settings, Source::Sensors { sensors: Box::new(sensors), transport }, film, light_paths, round)
     }
 
     /// Starts baking at places, whose picture has the resolution of the settings.

@@ -14,7 +14,7 @@ pub(crate) enum Source {
     /// Measurements.
     Sensors {
         /// Where.
-        sensors: SensorTable,
+        sensors: Box<SensorTable>,
         /// How.
         transport: Transport,
     },
