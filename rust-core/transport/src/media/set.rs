@@ -37,6 +37,7 @@ impl<L: Lanes> MediaSet<L> {
     }
 
     /// The names, and what the solid absorbs a metre.
+    #[inline(always)]
     pub(crate) fn parts(self) -> ([U<L>; 2], Spectrum<L>) {
         (self.names, self.solid)
     }
