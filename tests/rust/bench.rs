@@ -70,6 +70,8 @@ fn every_row_has_its_figure_in_the_paper() {
     for row in &report.rows {
         let line = page.lines().find(|line| line.contains(&format!("| {} |", row.name)));
         assert!(line.is_some_and(|line| !line.contains('–')), "{}: {page}", row.name);
+        let apart = row.levels.iter().map(|figure| (figure.outcome / row.baseline_outcome - 1.0).abs());
+        assert!(apart.fold(0.0, f64::max) <= row.tolerance, "{}: levels differ", row.name);
     }
     assert!(page.contains("| with a goniogram |") && !page.contains("Table 4"), "{page}");
 }

@@ -54,7 +54,7 @@ pub fn squared_indices_at(tables: &Tables, places: &[[f32; 3]]) -> Vec<f32> {
 /// Multiplies what points bring that paths have found by the squared index of what they lie in, over that of what the camera is in: paths carry radiance
 /// over it.
 pub(crate) fn weigh_points(tables: &Tables, transport: &Transport, points: &mut MeasurePoints) {
-    if tables.bodies.refracting.is_empty() {
+    if points.count == 0 || tables.bodies.refracting.is_empty() {
         return;
     }
     let before = |i: usize| {
