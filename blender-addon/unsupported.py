@@ -55,7 +55,7 @@ SCENES = {
         "Cycles' settings of noise and speed alone: light tree, how path guiding learns, sampling pattern, light threshold, least bounces, tiles, devices",
         "Gonio's own ways",
     ),
-    "pass": Limit("Volume passes, and the Shadow pass of EEVEE, which Cycles has no more", "absent"),
+    "pass": Limit("The Shadow pass of EEVEE, which Cycles has no more", "absent"),
     "catcher's passes": _untold("Illuminance and light passes where shadow catchers are", "empty there"),
     "panorama": Limit("Panoramas beyond equirectangular and fisheye ones", "an equirectangular one"),
     "kind of camera": Limit("Cameras of custom types", "a perspective one"),
@@ -94,7 +94,7 @@ LIGHTS = {
 }
 
 WORLDS = {
-    "world volume": Limit("The world's volume", "the air stays clear"),
+    "world volume": Limit("Volumes of worlds that vary from place to place", "the air stays clear"),
     "world's light path": Limit("Light Path in worlds: all but camera rays", "the others are not told apart, and count as 0"),
     "world aov": Limit("Shader AOVs of worlds", "their passes show surfaces alone"),
     "sun behind nodes": Limit("Sky Texture: the sun's disc where other nodes change the sky", "the disc is left out"),
@@ -107,7 +107,10 @@ WORLDS = {
 }
 
 MATERIALS = {
-    "volume": Limit("Volumes of materials beyond even absorption", "the inside stays empty; without a surface, rays pass"),
+    "volume": Limit("Volumes of materials that vary from place to place", "the inside stays empty; without a surface, rays pass"),
+    "phase": Limit(
+        "Phase functions beyond Henyey and Greenstein's, and sums of volumes of several", "Henyey and Greenstein's of the same mean cosine"
+    ),
     "camera in volume": _untold(
         "Volumes whose surface goes through a lens or a parallel view; volumes around baked surfaces",
         "what the middle of the lens stands in counts for all of it; the texels' surroundings are clear",

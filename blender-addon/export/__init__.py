@@ -182,11 +182,13 @@ class Exporter:
         shown = (getattr(layer, "world_override", None) or depsgraph.scene_eval.world) if layer.use_sky else None
         self._lights.domes([])
         self.report.forget_all("World")
-        self._world_asked = {}
+        self._world_asked, filled = {}, {}
         if shown is not None:
             with self.report.guard("World", shown.name, "the world is black"):
                 descriptions, self._world_asked = world.domes(shown, self._images, self.report, self._surroundings(depsgraph))
                 self._lights.domes(descriptions)
+                filled = world.atmosphere(shown, self._images, self.report)
+        self.scene.put_atmosphere(filled)
 
     def _moves(self, depsgraph, changes, moved):
         """New places of objects; everything is walked over where they may take others along."""

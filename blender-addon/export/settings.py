@@ -51,6 +51,7 @@ def settings(depsgraph, *, width, height, crop, preview, passes, aspect=(1.0, 1.
         "max_diffuse_bounces": int(ask("diffuse_bounces", 4)),
         "max_glossy_bounces": int(ask("glossy_bounces", 4)),
         "max_transmission_bounces": int(ask("transmission_bounces", 12)),
+        "max_volume_bounces": int(ask("volume_bounces", 0)),
         "max_transparent_bounces": int(ask("transparent_max_bounces", 8)),
         # Limits are in Blender's units, the scene's radiances in cd/m².
         "clamp_direct": float(ask("clamp_direct", 0.0)) * LUMENS_PER_WATT,

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which rays see an object: its own switches and those of its collections in the view layer."""
 
-RAYS = ("camera", "diffuse", "glossy", "transmission", "shadow")
+RAYS = ("camera", "diffuse", "glossy", "transmission", "volume", "shadow")
 # What objects may be to the camera beside seen and unseen.
 ROLES = ("holdout", "shadow_catcher")
 
@@ -22,6 +22,7 @@ class Visibility:
             "diffuse": thing.visible_diffuse,
             "glossy": thing.visible_glossy,
             "transmission": thing.visible_transmission,
+            "volume": thing.visible_volume_scatter,
             "shadow": thing.visible_shadow,
         }
         if thing.gonio.is_grid and thing.gonio.is_grid_only:

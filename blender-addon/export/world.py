@@ -16,6 +16,7 @@ from .daylight import facing
 from .evaluate import Pictures
 from .light_description import at_infinity
 from .material.flatten import flatten
+from .material.interior import medium
 from .material.shader_outputs import outputs_of
 from .material.sockets import active_output, input_socket
 from .material.textures import equirectangular, mirror_ball
@@ -28,6 +29,9 @@ from .visibility import RAYS
 DOME_TO_BLENDER = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
 # Axes of the mirrored ball, seen along −Z of the dome, where Blender sees it along +Y.
 BALL_TO_BLENDER = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
+
+# Rays by Cycles' names of a world's switches for them.
+SWITCHES = {"camera": "camera", "diffuse": "diffuse", "glossy": "glossy", "transmission": "transmission", "volume": "scatter"}
 
 
 class WorldTranslator(Translator):
@@ -99,6 +103,24 @@ def domes(world, images, report, surroundings=None):
     return _with_visibility(world, [*seen, *shown]), t.asked | of_camera.asked
 
 
+def atmosphere(world, images, report):
+    """The even medium that a world's Volume is, as the scene takes it; empty where there is none."""
+    if world is None or world.node_tree is None or not _uses_nodes(world):
+        return {}
+    t = WorldTranslator(world, world.node_tree, Pictures(images, report), report, kind="World", is_world=True, is_camera_ray=False)
+    end = active_output(world.node_tree, "World")
+    volume = None if end is None else input_socket(end, "Volume")
+    if volume is None or not volume.is_linked:
+        return {}
+    found = medium(t, volume, t.root)
+    if found is None:
+        t.tell("world volume", end, t.root)
+        return {}
+    if not found.exact:
+        t.tell("phase", end, t.root, "Volume")
+    return found.described()
+
+
 def _uses_nodes(world):
     return bpy.app.version >= (5, 0, 0) or world.use_nodes
 
@@ -112,9 +134,9 @@ def _with_visibility(world, descriptions):
         if settings.use_luminance and not settings.use_daylight:
             dome["emission"]["radiance"] = [x * settings.luminance / LUMENS_PER_WATT for x in dome["emission"]["radiance"]]
     for dome in descriptions if switches is not None else ():
-        for ray in ("camera", "diffuse", "glossy", "transmission"):
-            dome["visibility"][ray] &= bool(getattr(switches, ray, True))
-    return [dome for dome in descriptions if any(dome["visibility"][ray] for ray in RAYS[:4])]
+        for ray, switch in SWITCHES.items():
+            dome["visibility"][ray] &= bool(getattr(switches, switch, True))
+    return [dome for dome in descriptions if any(dome["visibility"][ray] for ray in SWITCHES)]
 
 
 def _dome(world, tree, around, is_camera_ray):
@@ -124,9 +146,6 @@ def _dome(world, tree, around, is_camera_ray):
     end = active_output(tree, "World")
     if end is None:
         return [], t
-    volume = input_socket(end, "Volume")
-    if volume is not None and volume.is_linked:
-        t.tell("world volume", end, t.root)
     for node, context in outputs_of(t.root):
         t.tell("world aov", node, context)
     flatten(t, input_socket(end, "Surface"), t.root, t.graph.scalar(1.0))

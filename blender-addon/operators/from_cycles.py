@@ -29,6 +29,7 @@ SCENE = {
         "diffuse_bounces",
         "glossy_bounces",
         "transmission_bounces",
+        "volume_bounces",
         "transparent_max_bounces",
         "film_exposure",
         "caustics_reflective",

@@ -54,6 +54,7 @@ class GONIO_OT_light_paths_preset_add(AddPresetBase, Operator):
         "diffuse_bounces",
         "glossy_bounces",
         "transmission_bounces",
+        "volume_bounces",
         "transparent_max_bounces",
         "caustics",
         "caustics_reflective",

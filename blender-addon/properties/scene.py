@@ -158,6 +158,7 @@ class GonioSceneSettings(AppearanceSettings, bpy.types.PropertyGroup):
     diffuse_bounces: _bounces("Diffuse Bounces", "Most diffuse bounces of a light path, within the total", 4)
     glossy_bounces: _bounces("Glossy Bounces", "Most glossy bounces of a light path, within the total", 4)
     transmission_bounces: _bounces("Transmission Bounces", "Most passages through refractive surfaces, within the total", 12)
+    volume_bounces: _bounces("Volume Bounces", "Most scatterings in volumes of a light path before its last, within the total", 0)
     transparent_max_bounces: _bounces("Transparent Max Bounces", "Most transparent surfaces that a ray passes; not part of the total", 8)
     caustics: EnumProperty(
         name="Caustics",

@@ -82,6 +82,8 @@ _LAYER_PASSES = {
 
 # By the property of `view_layer.cycles`, which is there while Cycles is.
 _CYCLES_PASSES = {
+    "use_pass_volume_direct": Pass("Volume Direct", "RGB", "COLOR", "volume_direct", Scale.RADIANCE),
+    "use_pass_volume_indirect": Pass("Volume Indirect", "RGB", "COLOR", "volume_indirect", Scale.RADIANCE),
     "use_pass_shadow_catcher": Pass("Shadow Catcher", "RGB", "COLOR", "shadow_catcher"),
     "pass_render_time": Pass("Render Time", "X", "VALUE", "cost", Scale.SECONDS),
 }

@@ -26,6 +26,7 @@ class GONIO_RENDER_PT_light_paths_max_bounces(RenderPanel, Panel):
         lobes.prop(settings, "diffuse_bounces", text="Diffuse")
         lobes.prop(settings, "glossy_bounces", text="Glossy")
         lobes.prop(settings, "transmission_bounces", text="Transmission")
+        lobes.prop(settings, "volume_bounces", text="Volume")
         layout.column().prop(settings, "transparent_max_bounces", text="Transparent")
 
 

@@ -26,6 +26,7 @@ class GONIO_OBJECT_PT_ray_visibility(GonioPanel, Panel):
         column.prop(seen, "visible_diffuse", text="Diffuse")
         column.prop(seen, "visible_glossy", text="Glossy")
         column.prop(seen, "visible_transmission", text="Transmission")
+        column.prop(seen, "visible_volume_scatter", text="Volume Scatter")
         if seen.type != "LIGHT":
             column.prop(seen, "visible_shadow", text="Shadow")
             column = layout.column(heading="Mask")

@@ -14,7 +14,7 @@ BOX = np.array([half for a, b, c, d in SIDES for half in ((a, b, c), (a, c, d))]
 def filled(scene, *places, stretch=(1, 1, 1), closures=(), absorption=ABSORPTION):
     """Boxes of 2 m by 1 m by 2 m that stand at places and are full of what absorbs."""
     surface = list(closures) or [closure("Transparent", base_color=1.0)]
-    material = scene.put_material({"origin": "filling", "closures": surface, "absorption": list(absorption)})
+    material = scene.put_material({"origin": "filling", "closures": surface, "medium": {"absorption": list(absorption)}})
     mesh = scene.add_mesh(CORNERS * np.array(stretch, "f4"), BOX)
     for place in places:
         scene.add_instance(mesh, [material], transform=at(*place))

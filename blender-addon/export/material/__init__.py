@@ -30,7 +30,7 @@ from . import (  # noqa: F401 (they register their nodes)
 from .closures import closure
 from .displacement import displace
 from .flatten import GREY, flatten
-from .interior import absorption
+from .interior import medium
 from .shader_outputs import shader_outputs
 from .sockets import active_output, input_socket
 from .translator import Translator
@@ -72,12 +72,14 @@ def translate(material, images, measurements, report, version=None, shader_aovs=
 
 
 def _rest(t, end, material):
-    """What an output node has beside its surface; rays pass what is a volume alone. Gives what the inside absorbs a metre, if anything."""
+    """What an output node has beside its surface; rays pass what is a volume alone. Gives the medium inside, if there is any."""
     inside = None
     if t.linked(end, "Volume", t.root):
-        inside = absorption(t, input_socket(end, "Volume"), t.root)
+        inside = medium(t, input_socket(end, "Volume"), t.root)
         if inside is None:
             t.tell("volume", end, t.root, "Volume")
+        elif not inside.exact:
+            t.tell("phase", end, t.root, "Volume")
         # As in Cycles a surface that comes to nothing counts as none.
         if not t.closures:
             t.closures.append({"weight": t.graph.scalar(1.0).input(), **closure(t.graph, "Transparent", base_color=1.0)})
@@ -99,7 +101,7 @@ def _described(t, material, outputs, displacement, inside):
     moved = {} if displacement is None else {"displacement": {**displacement, "value": renumber(displacement["value"], order)}}
     return {
         **moved,
-        **({"absorption": list(inside)} if inside is not None and any(inside) else {}),
+        **({"medium": inside.described()} if inside is not None and inside.described() else {}),
         "origin": {"name": material.name, "file": ""},
         "graph": {"nodes": nodes},
         # Displacement makes the normal from which others are bent.

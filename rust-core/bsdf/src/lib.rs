@@ -22,6 +22,7 @@ mod measured;
 mod microfacet;
 pub mod normals;
 pub mod parameter;
+pub mod phase;
 mod portal;
 mod reflect;
 mod resolve;

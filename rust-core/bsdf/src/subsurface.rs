@@ -7,9 +7,10 @@
 use super::diffuse::DiffuseLobe;
 use super::lobes::Lobes;
 use super::microfacet::Widths;
+use super::phase::sample_henyey_greenstein;
 use super::switches::SubsurfaceMethod;
 use core::f32::consts::PI;
-use gonio_simd::{F, Frame, Lanes, M, Spectrum, Vec3};
+use gonio_simd::{F, Lanes, M, Spectrum, Vec3};
 
 /// Steps after which a walk is lost.
 pub const MAXIMUM_STEPS: u32 = 256;
@@ -189,21 +190,7 @@ impl<L: Lanes> Medium<L> {
     /// The direction after a scattering of light that goes along `direction`; its density is the phase function, so that no factor remains.
     #[inline(always)]
     pub fn scatter(&self, direction: Vec3<L>, u: [F<L>; 2]) -> Vec3<L> {
-        let g = self.anisotropy;
-        let even = g.abs().lt(1e-3);
-        let safe = even.select(g.lanes().f(0.5), g);
-        let part = (1.0 - safe * safe) / (1.0 - safe + safe * u[0] * 2.0);
-        let cos = even.select(1.0 - u[0] * 2.0, (safe.mul_add(safe, 1.0) - part * part) / (safe * 2.0)).clamp(-1.0, 1.0);
-        let sin = (1.0 - cos * cos).safe_sqrt();
-        let (sin_phi, cos_phi) = u[1].sin_cos_turns();
-        Frame::from_normal(direction).to_world(Vec3::new(sin * cos_phi, sin * sin_phi, cos)).normalize()
-    }
-    /// The phase function per solid angle at a cosine between the directions before and after.
-    #[inline(always)]
-    pub fn phase(&self, cos: F<L>) -> F<L> {
-        let g = self.anisotropy;
-        let base = (g.mul_add(g, 1.0) - g * cos * 2.0).max(1e-9);
-        (1.0 - g * g) / (base * base.sqrt()) * (0.25 / PI)
+        sample_henyey_greenstein(self.anisotropy, direction, u)
     }
 }
 

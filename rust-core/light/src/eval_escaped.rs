@@ -48,7 +48,7 @@ impl LightTable {
                 let pdf = if infinite.alone { l.f(f32::MAX) } else { pdf };
                 weight = hit_weight(bsdf_pdf, pdf, weighed);
             }
-            for (number, factor) in (0..3).zip(infinite.factors) {
+            for (number, factor) in (0..4).zip(infinite.factors) {
                 if factor != 1.0 {
                     weight = kind.eq(number).and_not(first).select(weight * factor, weight);
                 }

@@ -100,9 +100,9 @@ pub struct LightRecord {
     pub visible_to_camera: bool,
     /// Whether scattered rays find the emitter; without it the light is not sampled either.
     pub visible_to_scattered: bool,
-    /// Factors on what is scattered of its light: diffusely, glossily, transmitted. Kinds of scattered rays of factor 0 do not find the emitter.
+    /// Factors on what is scattered of its light: diffusely, glossily, transmitted, by media. Kinds of scattered rays of factor 0 do not find the emitter.
     /// Light sampling alone is exact for what is neither 0 nor 1.
-    pub scattered: [f32; 3],
+    pub scattered: [f32; 4],
     /// How it falls with distance; lights at infinity have no use for it.
     pub falloff: Falloff,
     /// Whether things block it.
@@ -134,7 +134,7 @@ impl LightRecord {
             visible_to_camera: true,
             visible_to_scattered: true,
             casts_shadow: true,
-            scattered: [1.0; 3],
+            scattered: [1.0; 4],
             falloff: Falloff::NATURAL,
             sampled_alone: false,
             shaded: false,

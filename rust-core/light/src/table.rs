@@ -36,7 +36,7 @@ pub(crate) struct InfiniteLight {
     /// To scattered rays.
     pub(crate) scattered: bool,
     /// Factors on what kinds of scattered rays find of it.
-    pub(crate) factors: [f32; 3],
+    pub(crate) factors: [f32; 4],
     /// Light sampling alone finds it.
     pub(crate) alone: bool,
 }
@@ -55,7 +55,7 @@ pub struct LightTable {
     pub(crate) goniograms: Vec<Arc<Goniogram>>,
     /// Rows of the rectangles that domes are looked for through.
     pub(crate) portals: Vec<u32>,
-    /// By light, factors on what is scattered of it, three each; empty where all is as it is.
+    /// By light, factors on what is scattered of it, four each; empty where all is as it is.
     pub(crate) factors: Vec<f32>,
     /// By light, the two numbers of its falloff; empty where all fall by nature.
     pub(crate) falloffs: Vec<f32>,
@@ -124,7 +124,7 @@ impl LightTable {
         }
         let sampler = if records.len() <= MOST_EXHAUSTIVE { LightSampler::Exhaustive } else { LightSampler::Tree(LightTree::new(&rows)) };
         let any_alone = records.iter().any(|record| record.sampled_alone);
-        let any_factor = records.iter().any(|record| record.scattered != [1.0; 3]);
+        let any_factor = records.iter().any(|record| record.scattered != [1.0; 4]);
         let factors = if any_factor { records.iter().flat_map(|record| record.scattered).collect() } else { Vec::new() };
         let falloff = |record: &LightRecord| if record.kind.is_infinite() { Falloff::NATURAL } else { record.falloff };
         let any_falloff = records.iter().any(|record| falloff(record) != Falloff::NATURAL);
@@ -156,13 +156,13 @@ impl LightTable {
     pub fn has_factors(&self) -> bool {
         !self.factors.is_empty()
     }
-    /// Factor on what is scattered of each lane's light in a way (0 diffuse, 1 glossy, 2 transmitted); 0 where such rays do not see it.
+    /// Factor on what is scattered of each lane's light in a way (0 diffuse, 1 glossy, 2 transmitted, 3 by a medium); 0 where such rays do not see it.
     #[inline(always)]
     pub fn scattered_factor<L: Lanes>(&self, l: L, light: U<L>, kind: U<L>) -> F<L> {
         if self.factors.is_empty() {
             return l.f(1.0);
         }
-        l.gather(&self.factors, light * 3 + kind)
+        l.gather(&self.factors, (light << 2) + kind)
     }
     /// Whether receivers of a class see each lane's light.
     #[inline(always)]

@@ -315,6 +315,12 @@ impl Scene {
         description::put(&mut self.scene.grids, "grid", description::read(description, "grid")?, index)
     }
 
+    /// What fills all of space, described as in `to_dict`; an empty description is nothing.
+    fn put_atmosphere(&mut self, description: &Bound<'_, PyDict>) -> PyResult<()> {
+        self.scene.atmosphere = description::read(description, "atmosphere")?;
+        Ok(())
+    }
+
     /// Adds a texture described as in `to_dict`, or replaces texture `index`; gives its number.
     ///
     /// In place of a source, `data` gives a name for messages and an encoded file's bytes, or those of UDIM tiles by number; `pixels` gives numbers of

@@ -52,6 +52,7 @@ fn change_one(s: &mut Settings, key: &str, value: &Bound<'_, PyAny>) -> PyResult
         "max_glossy_bounces" => s.kind_bounces[1] = value.extract()?,
         "max_transmission_bounces" => s.kind_bounces[2] = value.extract()?,
         "max_transparent_bounces" => s.kind_bounces[3] = value.extract()?,
+        "max_volume_bounces" => s.volume_bounces = value.extract()?,
         "antialiasing" => s.set_antialiasing(antialiasing(value)?),
         "filter" => s.filter = filter(value)?,
         "filter_width" => s.filter_width = within(key, value, 0.0, 16.0)? as f32,

@@ -55,7 +55,7 @@ pub enum Aov {
     Cryptomatte(MatteKind, u8),
     /// Light of the classes whose bits are set, see [`super::LightPath`], times the camera's exposure; what it is called is an entry of
     /// [`super::Settings::light_paths`].
-    LightPaths(u8, u16),
+    LightPaths(u16, u16),
     /// Light whose paths an expression takes that parts these classes, times the camera's exposure; it is an entry of
     /// [`super::Settings::light_paths`].
     LightExpression(u16),
@@ -123,6 +123,8 @@ pub enum ScatteringKind {
     Glossy,
     /// Refraction and straight transmission.
     Transmission,
+    /// In media.
+    Volume,
 }
 
 /// Parts of the light that a kind of scattering shows.
@@ -138,9 +140,9 @@ pub enum LightPart {
 
 impl Aov {
     /// All passes with their names, but for shader passes, light groups, mattes and light paths.
-    pub const NAMES: [(Self, &'static str); 34] = {
+    pub const NAMES: [(Self, &'static str); 36] = {
         use LightPart::{Color, Direct, Indirect};
-        use ScatteringKind::{Diffuse, Glossy, Transmission};
+        use ScatteringKind::{Diffuse, Glossy, Transmission, Volume};
         [
             (Self::Color, "color"),
             (Self::Alpha, "alpha"),
@@ -176,6 +178,8 @@ impl Aov {
             (Self::Light(Transmission, Direct), "transmission_direct"),
             (Self::Light(Transmission, Indirect), "transmission_indirect"),
             (Self::Light(Transmission, Color), "transmission_color"),
+            (Self::Light(Volume, Direct), "volume_direct"),
+            (Self::Light(Volume, Indirect), "volume_indirect"),
         ]
     };
 

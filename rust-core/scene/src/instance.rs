@@ -17,18 +17,25 @@ pub struct Visibility {
     pub glossy: bool,
     /// Seen by rays of transmission.
     pub transmission: bool,
+    /// Seen by rays that media scattered.
+    #[serde(default = "seen")]
+    pub volume: bool,
+}
+
+fn seen() -> bool {
+    true
 }
 
 impl Default for Visibility {
     fn default() -> Self {
-        Self { camera: true, shadow: true, diffuse: true, glossy: true, transmission: true }
+        Self { camera: true, shadow: true, diffuse: true, glossy: true, transmission: true, volume: true }
     }
 }
 
 impl Visibility {
     /// Whether scattered rays of any kind see it.
     pub fn scattered(&self) -> bool {
-        self.diffuse || self.glossy || self.transmission
+        self.diffuse || self.glossy || self.transmission || self.volume
     }
 }
 

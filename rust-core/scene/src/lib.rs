@@ -24,6 +24,7 @@ mod light_quantity;
 mod linking;
 mod material;
 mod measured;
+mod medium;
 mod mesh;
 mod meter;
 mod origin;
@@ -60,6 +61,7 @@ pub use light_quantity::{LUMENS_PER_WATT, LightQuantity};
 pub use linking::{Link, Linking};
 pub use material::{Closure, Distribution, FibreDirection, Material, Model, ShaderOutput, SubsurfaceMethod};
 pub use measured::MeasuredBsdf;
+pub use medium::Medium;
 pub use mesh::{Mesh, MeshKey, Primvar, PrimvarInterpolation};
 pub use meter::{Grid, GridArea, Measurand, Meter};
 pub use origin::Origin;
@@ -137,6 +139,9 @@ pub struct Scene {
     /// Calculation grids.
     #[serde(default)]
     pub grids: Vec<Grid>,
+    /// What fills all of space: haze, fog, water.
+    #[serde(default, skip_serializing_if = "Medium::is_clear")]
+    pub atmosphere: Medium,
     /// How it is rendered.
     pub settings: Settings,
 }

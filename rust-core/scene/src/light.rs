@@ -205,6 +205,9 @@ pub struct Light {
     /// Factor on what surfaces reflect and transmit of it otherwise.
     #[serde(default = "whole")]
     pub specular: f32,
+    /// Factor on what media scatter of it.
+    #[serde(default = "whole")]
+    pub volume: f32,
     /// How it falls with distance; lights at infinity, light paths and luminaires that are measured have no use for it.
     #[serde(default)]
     pub falloff: Falloff,
@@ -238,6 +241,7 @@ impl Default for Light {
             casts_shadow: true,
             diffuse: whole(),
             specular: whole(),
+            volume: whole(),
             falloff: Falloff::default(),
             filters: Vec::new(),
             linking: Linking::default(),

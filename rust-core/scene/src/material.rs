@@ -1,6 +1,6 @@
 //! Materials: a surface model with parameters that are constants or outputs of a node graph.
 
-use super::{Displacement, MeasuredId, Origin};
+use super::{Displacement, MeasuredId, Medium, Origin};
 use gonio_nodes::{Graph, Input, NodeId};
 use serde::{Deserialize, Serialize};
 
@@ -132,6 +132,9 @@ pub struct Closure {
     pub fibres: FibreDirection,
     /// The surface is a sheet: light that passes is not bent.
     pub thin_walled: bool,
+    /// What the solid under the surface is, where it scatters: in place of absorption by depth.
+    #[serde(skip_serializing_if = "Medium::is_clear")]
+    pub solid: Medium,
     /// Opacity below this counts as 0, else as 1; 0 means opacity is as it is.
     pub opacity_threshold: f32,
     /// How facets are distributed.
@@ -154,6 +157,7 @@ impl Default for Closure {
             tangent: None,
             fibres: FibreDirection::default(),
             thin_walled: false,
+            solid: Medium::default(),
             opacity_threshold: 0.0,
             distribution: Distribution::default(),
             subsurface: SubsurfaceMethod::default(),
@@ -211,9 +215,9 @@ pub struct Material {
     /// How far the surface lies off the mesh.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub displacement: Option<Displacement>,
-    /// Absorption a metre of what fills the closed mesh that the surface is of; straight light, too, loses it.
-    #[serde(skip_serializing_if = "is_clear")]
-    pub absorption: [f32; 3],
+    /// What fills the closed mesh that the surface is of.
+    #[serde(skip_serializing_if = "Medium::is_clear")]
+    pub medium: Medium,
     /// Whether light comes through where the surface is transparent; otherwise it blocks shadow rays as an opaque one.
     #[serde(skip_serializing_if = "is_true")]
     pub transparent_shadows: bool,
@@ -227,10 +231,6 @@ fn is_true(value: &bool) -> bool {
     *value
 }
 
-fn is_clear(absorption: &[f32; 3]) -> bool {
-    absorption.iter().all(|x| *x == 0.0)
-}
-
 impl Default for Material {
     fn default() -> Self {
         let closures = vec![Closure::default()];
@@ -240,7 +240,7 @@ impl Default for Material {
             graph: Graph::default(),
             normal: None,
             displacement: None,
-            absorption: [0.0; 3],
+            medium: Medium::default(),
             transparent_shadows: true,
             pass_index: 0,
             shader_outputs: Vec::new(),

@@ -158,6 +158,9 @@ pub struct Settings {
     /// Bounces by kind: diffuse, glossy and transmitted scatterings, and surfaces seen straight through; at most 255.
     #[serde(default = "all_bounces")]
     pub kind_bounces: [u32; 4],
+    /// Scatterings in media; at most 255.
+    #[serde(default = "volume_bounces")]
+    pub volume_bounces: u32,
     /// What is where the camera sees no surface.
     #[serde(default)]
     pub background: Background,
@@ -269,6 +272,10 @@ fn matte_ranks() -> u32 {
     MATTE_RANKS
 }
 
+fn volume_bounces() -> u32 {
+    255
+}
+
 /// No other limit than that of all bounces.
 fn all_bounces() -> [u32; 4] {
     [255; 4]
@@ -293,6 +300,7 @@ impl Default for Settings {
             max_bounces: 12,
             light_samples: light_samples(),
             kind_bounces: all_bounces(),
+            volume_bounces: volume_bounces(),
             background: Background::default(),
             mist: Mist::default(),
             caustics: Caustics::default(),

@@ -7,6 +7,7 @@ gonio.max_bounces = 12
 gonio.diffuse_bounces = 4
 gonio.glossy_bounces = 4
 gonio.transmission_bounces = 12
+gonio.volume_bounces = 0
 gonio.transparent_max_bounces = 8
 gonio.caustics_reflective = True
 gonio.caustics_refractive = True

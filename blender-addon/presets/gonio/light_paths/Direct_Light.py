@@ -7,6 +7,7 @@ gonio.max_bounces = 8
 gonio.diffuse_bounces = 0
 gonio.glossy_bounces = 1
 gonio.transmission_bounces = 2
+gonio.volume_bounces = 0
 gonio.transparent_max_bounces = 8
 gonio.caustics_reflective = False
 gonio.caustics_refractive = False

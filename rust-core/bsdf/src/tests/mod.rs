@@ -11,6 +11,7 @@ mod harness;
 mod measured;
 mod measurements;
 mod normals;
+mod phase;
 mod ranges;
 mod rows;
 mod smooth;

@@ -3,6 +3,7 @@
 use super::harness::{self, direction, random};
 use super::rows::{Values, surface};
 use crate::parameter as p;
+use crate::phase::henyey_greenstein;
 use crate::subsurface::{LEAST_THROUGHPUT, MAXIMUM_STEPS, REDUCED_FROM};
 use crate::{Closure, Hits, Lobes, ParameterValues, SubsurfaceMethod, Surface, Switches};
 use gonio_simd::{Execution, F, Lanes, Spectrum, Vec3, dispatch};
@@ -182,7 +183,8 @@ fn phase<L: Lanes>(l: L, g: f32, out: &mut [f64; 3]) {
     let nodes = 20_000;
     for node in 0..nodes {
         let cos = (node as f32 + 0.5) / nodes as f32 * 2.0 - 1.0;
-        let value = f64::from(medium.phase(l.f(cos)).to_array()[0]) * 4.0 * core::f64::consts::PI / f64::from(nodes);
+        let value =
+            f64::from(henyey_greenstein(medium.anisotropy, l.f(cos)).to_array()[0]) * 4.0 * core::f64::consts::PI / f64::from(nodes);
         out[1] += value;
         out[2] += value * f64::from(cos);
     }

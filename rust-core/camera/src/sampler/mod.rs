@@ -44,4 +44,25 @@ pub mod dimension {
     pub const EXIT: u32 = 11;
     /// Where in the pixel that sees it the light of a light path comes in, within a bounce.
     pub const SPLAT: u32 = 14;
+
+    /// First dimension of what happens in media, beyond those of walks under surfaces; `MEDIUM` times the depth apart.
+    pub const MEDIA: u32 = 1 << 20;
+    /// Dimensions of the way before a surface.
+    pub const MEDIUM: u32 = 8;
+    /// Component of light and length of a free flight, within such a way.
+    pub const FLIGHT: u32 = 0;
+    /// Direction after a scattering.
+    pub const PHASE: u32 = 1;
+    /// Which of several media scatters, and Russian roulette.
+    pub const PHASE_CHOICE: u32 = 2;
+    /// The place from which a light is selected.
+    pub const MEDIUM_LOOK: u32 = 3;
+    /// Choice of the light, and the component of light by which the place to be lit is drawn.
+    pub const MEDIUM_LIGHT_CHOICE: u32 = 4;
+    /// Point of the light that the place is drawn towards.
+    pub const MEDIUM_POINT: u32 = 5;
+    /// Way of drawing that place, and the place.
+    pub const MEDIUM_PLACE: u32 = 6;
+    /// Point of the light that lights it.
+    pub const MEDIUM_LIGHT: u32 = 7;
 }

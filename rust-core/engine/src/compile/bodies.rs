@@ -4,7 +4,7 @@ use super::{bounds::Bounds, casters::is_one};
 use crate::{
     bsdf::Surface,
     light::LightTable,
-    scene::{Instances, Material, Scene},
+    scene::{Closure, Instances, Material, Scene},
     transport::{Bodies, Body, MaterialTable},
 };
 
@@ -63,7 +63,8 @@ fn refracts(surface: &Surface) -> bool {
 
 /// Whether a material may absorb what goes through the meshes that it covers.
 fn absorbs(material: &Material) -> bool {
-    material.absorption.iter().any(|x| *x > 0.0) || material.closures.iter().any(|closure| closure.input("transmission_depth").is_some())
+    let is_filled = |closure: &Closure| !closure.solid.is_clear() || closure.input("transmission_depth").is_some();
+    !material.medium.is_clear() || material.closures.iter().any(is_filled)
 }
 
 /// Whether a body's bounds meet the box about a ball.

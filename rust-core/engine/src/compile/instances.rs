@@ -41,6 +41,7 @@ pub(super) fn append_instances(
         (group.visibility.diffuse, ray_mask::DIFFUSE),
         (group.visibility.glossy, ray_mask::GLOSSY),
         (group.visibility.transmission, ray_mask::TRANSMISSION),
+        (group.visibility.volume, ray_mask::VOLUME),
         (group.shadow_catcher && group.visibility.shadow, ray_mask::CATCHER_SHADOW),
         (group.shadow_catcher && group.visibility.scattered(), ray_mask::CATCHER_SCATTERED),
     ];

@@ -262,16 +262,16 @@ fn falloff(light: &Light, diagnostics: &mut Vec<Diagnostic>) -> Falloff {
 }
 
 /// Factors on what is scattered of a light.
-fn scattered(light: &Light) -> [f32; 3] {
+fn scattered(light: &Light) -> [f32; 4] {
     let factor = |x: f32| if x.is_finite() { x.max(0.0) } else { 1.0 };
-    let [diffuse, glossy, transmitted] = seen_by(&light.visibility);
-    [diffuse * factor(light.diffuse), glossy * factor(light.specular), transmitted * factor(light.specular)]
+    let [diffuse, glossy, transmitted, volume] = seen_by(&light.visibility);
+    [diffuse * factor(light.diffuse), glossy * factor(light.specular), transmitted * factor(light.specular), volume * factor(light.volume)]
 }
 
 /// 0 for the kinds of scattered rays that do not see what others see.
-fn seen_by(visibility: &Visibility) -> [f32; 3] {
-    let Visibility { diffuse, glossy, transmission, .. } = *visibility;
-    [diffuse, glossy, transmission].map(|seen| if seen || !visibility.scattered() { 1.0 } else { 0.0 })
+fn seen_by(visibility: &Visibility) -> [f32; 4] {
+    let Visibility { diffuse, glossy, transmission, volume, .. } = *visibility;
+    [diffuse, glossy, transmission, volume].map(|seen| if seen || !visibility.scattered() { 1.0 } else { 0.0 })
 }
 
 /// Says what this kind of light has no use for.
@@ -327,6 +327,7 @@ fn shape_instance(light: &Light, part: &Part) -> Option<Instance> {
         | seen(visibility.diffuse, ray_mask::DIFFUSE)
         | seen(visibility.glossy, ray_mask::GLOSSY)
         | seen(visibility.transmission, ray_mask::TRANSMISSION)
+        | seen(visibility.volume, ray_mask::VOLUME)
         | seen(visibility.scattered(), ray_mask::CATCHER_SCATTERED);
     Some(Instance { geometry: Geometry::Shape(shape), object_to_world: rows(&transform), mask, transparent: false })
 }

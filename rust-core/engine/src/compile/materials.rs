@@ -1,6 +1,7 @@
 //! Materials: parameter blocks and programs.
 
 mod displacement;
+pub(super) mod media;
 mod parameters;
 mod program;
 
@@ -10,7 +11,7 @@ use crate::{
     error::{Diagnostic, Error, Result},
     graph::{Program, Wanted, WantedOutput},
     scene::{self, Closure, FibreDirection, Input, Material, Model, NodeId, Origin, Scene},
-    transport::{MaterialTable, Medium, Mix, ShaderOutput, ShaderOutputs, Shading, SurfaceMaterial},
+    transport::{MaterialTable, Mix, ShaderOutput, ShaderOutputs, Shading, SurfaceMaterial},
 };
 pub(super) use displacement::{displaces, program, pruned};
 use gonio_nodes::{Channel, Operand, Value};
@@ -39,9 +40,13 @@ pub(super) fn compile(
         }
         let graph = compile_graph(material, textures, names)?;
         tell_weights(material, &graph, diagnostics);
-        let interior = interior(material).map(|medium| table.media.add(medium));
+        let interior = media::add(&material.medium, &material.origin, &mut table.media, diagnostics);
         for closure in &material.closures {
-            table.surfaces.push(SurfaceMaterial { interior, ..surface(material, closure, measured, &graph, diagnostics) });
+            let solid_medium = match closure.thin_walled {
+                true => None,
+                false => media::add(&closure.solid, &material.origin, &mut table.media, diagnostics),
+            };
+            table.surfaces.push(SurfaceMaterial { interior, solid_medium, ..surface(material, closure, measured, &graph, diagnostics) });
         }
         if !material.shader_outputs.is_empty() {
             table.shader_outputs.push(shader_outputs(material, &graph, first as usize));
@@ -53,6 +58,9 @@ pub(super) fn compile(
                 Shading::Mix(table.mixes.len() as u32 - 1)
             }
         });
+    }
+    if let Some(row) = media::add(&scene.atmosphere, &Origin::new("atmosphere"), &mut table.media, diagnostics) {
+        table.media.everywhere = row;
     }
     table.any_exit = table.surfaces.iter().any(|surface| surface.exit.is_some());
     Ok(table)
@@ -177,6 +185,7 @@ fn surface(
         textured_emission,
         emits_apart: material.closures.len() > 1 && closure.model == Model::Emission && lobes.emission && !lobes.cut_out,
         interior: None,
+        solid_medium: None,
         anisotropic: lobes.anisotropic,
         holdout: closure.model == Model::Holdout,
         pass_index: material.pass_index,
@@ -211,16 +220,6 @@ fn edge(closure: &Closure) -> Option<usize> {
         FibreDirection::SecondEdge if fibre && closure.tangent.is_none() => Some(1),
         _ => None,
     }
-}
-
-/// What fills the mesh, if it absorbs anything.
-fn interior(material: &Material) -> Option<Medium> {
-    let absorption = material.absorption.map(|x| finite(x).max(0.0));
-    absorption.iter().any(|x| *x > 0.0).then_some(Medium { absorption })
-}
-
-fn finite(value: f32) -> f32 {
-    if value.is_finite() { value } else { 0.0 }
 }
 
 fn switches_of(closure: &Closure) -> Switches {

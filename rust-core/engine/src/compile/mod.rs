@@ -176,6 +176,7 @@ fn report(scene: &Scene, materials: &MaterialTable, lights: &LightTable, diagnos
     smooth::report_emission(scene, emits, diagnostics);
     whitted::report(scene, materials, lights, diagnostics);
     light_alone::report(scene, materials, lights, diagnostics);
+    materials::media::report(&scene.atmosphere, lights, diagnostics);
 }
 
 /// What kernels read; takes it from what was compiled.

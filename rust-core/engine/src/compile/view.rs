@@ -89,6 +89,7 @@ pub(crate) fn transport(scene: &CompiledScene, settings: &Settings, execution: E
         limits: Limits {
             max_bounces: if settings.integrator == Integrator::Direct { 0 } else { settings.max_bounces },
             kind_bounces: settings.kind_bounces.map(|bounces| bounces.min(255)),
+            volume_bounces: settings.volume_bounces.min(255),
             clamps: [settings.clamp_direct, settings.clamp_indirect],
             caustics: settings.caustic_paths,
             clear_roughness: match settings.background {

@@ -24,6 +24,9 @@ pub(super) fn report(scene: &Scene, materials: &MaterialTable, lights: &LightTab
     if (0..materials.numbers.len()).any(|material| materials.emits_unknown(material)) {
         warn("surfaces whose emission depends on the bounces before shine, but light nothing".to_owned());
     }
+    if materials.media.scatters() || materials.media.shines() {
+        warn("media take light away; what they scatter and send is missing".to_owned());
+    }
     if scene.settings.antialiasing.is_adaptive() {
         let camera = scene.cameras.get(scene.settings.camera as usize);
         if camera.is_some_and(|camera| camera.lens_radius > 0.0) {

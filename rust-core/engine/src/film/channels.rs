@@ -1,7 +1,7 @@
 //! Which passes a film keeps, and where their channels lie.
 
 use super::backdrop::Besides;
-use crate::scene::{Aov, LightPart, MatteKind, ShaderValue};
+use crate::scene::{Aov, LightPart, MatteKind, ScatteringKind, ShaderValue};
 
 /// Radiance of catchers with all objects, and without them; what is behind; coverage.
 const CATCHER_CHANNELS: usize = 10;
@@ -149,6 +149,8 @@ pub fn is_index(aov: Aov) -> bool {
 /// The pass that a pass of light is divided by.
 pub fn divisor(aov: Aov) -> Option<Aov> {
     match aov {
+        // What floats in a medium has no albedo of a surface.
+        Aov::Light(ScatteringKind::Volume, _) => None,
         Aov::Light(kind, LightPart::Direct | LightPart::Indirect) => Some(Aov::Light(kind, LightPart::Color)),
         _ => None,
     }

@@ -68,7 +68,7 @@ pub struct Film {
     /// What light paths bring, where some are traced. Locked before a tile.
     splats: Option<Mutex<SplatFilm>>,
     /// Classes of light that they bring.
-    brought: u8,
+    brought: u16,
     /// The most of it that a pixel has, straight from lights and otherwise, 0 for any.
     limits: [f32; 2],
     /// The names in its mattes.

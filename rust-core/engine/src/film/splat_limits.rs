@@ -18,9 +18,9 @@ pub(super) enum Shows {
 }
 
 impl Shows {
-    /// By classes of light, of which the lower three are direct.
-    pub(super) fn of(classes: u8) -> Self {
-        match (classes & 0b111, classes >> 3) {
+    /// By classes of light, of which the lower four are direct.
+    pub(super) fn of(classes: u16) -> Self {
+        match (classes & 0b1111, classes >> 4) {
             (_, 0) => Self::Direct,
             (0, _) => Self::Indirect,
             _ => Self::Both,
@@ -65,7 +65,7 @@ mod tests {
                 assert!((found - expected).abs() < 1e-7, "{limits:?} {shows:?}: {found}");
             }
         }
-        assert_eq!([0b000_010, 0b010_000, 0b001_001].map(Shows::of), [Shows::Direct, Shows::Indirect, Shows::Both]);
+        assert_eq!([0b0000_0010, 0b0010_0000, 0b0001_0001].map(Shows::of), [Shows::Direct, Shows::Indirect, Shows::Both]);
         assert_eq!(PixelSplats { all: [0.0; 3], direct: [0.0; 3] }.factor([1.0; 2], Shows::Both), 1.0);
     }
 }

@@ -20,15 +20,15 @@ enum Share {
     /// All of it.
     Radiance,
     /// Classes of light, as [`crate::scene::LightPath::Classes`] has them: what the first surface's lobes of some kinds scatter.
-    Classes(u8),
+    Classes(u16),
     /// What the lights of a group send.
     Group(u16),
 }
 
 /// The classes of light that is indirect, of light straight from lights, and of all that surfaces scatter.
-pub(super) const INDIRECT: u8 = 0b11_1000;
-const DIRECT: u8 = 0b00_0111;
-pub(super) const SCATTERED: u8 = 0b11_1111;
+pub(super) const INDIRECT: u16 = 0b1111_0000;
+const DIRECT: u16 = 0b1111;
+pub(super) const SCATTERED: u16 = 0b1111_1111;
 
 /// What is summed, and in which units.
 #[derive(Clone, Debug)]
@@ -45,7 +45,7 @@ pub(crate) struct SplatLayout {
 pub(crate) struct SplatFilm {
     layout: SplatLayout,
     /// Classes of light that light paths bring.
-    brought: u8,
+    brought: u16,
     /// The most of it that a pixel has, straight from lights and otherwise, 0 for any.
     limits: [f32; 2],
     /// Light paths so far.
@@ -111,8 +111,8 @@ impl SplatLayout {
                     let share = match part {
                         Share::Radiance => 1.0,
                         Share::Classes(classes) => {
-                            let kinds = if splat.direct { *classes } else { classes >> 3 };
-                            let asked = KINDS.iter().filter(|kind| kinds >> **kind as u8 & 1 == 1);
+                            let kinds = if splat.direct { *classes } else { classes >> 4 };
+                            let asked = KINDS.iter().filter(|kind| kinds >> **kind as u16 & 1 == 1);
                             asked.map(|kind| kind_share(splat, *kind, channel)).sum()
                         }
                         Share::Group(number) => f64::from(u8::from(groups.of_light.get(splat.light as usize) == Some(&u32::from(*number)))),
@@ -128,13 +128,13 @@ impl SplatLayout {
 impl SplatFilm {
     /// Empty sums for the passes of a film; `brought` are the classes of light that light paths bring, `limits` the most that a pixel has of direct
     /// and of indirect ones, `power` is that of their lights.
-    pub(super) fn new(layout: &ChannelLayout, window: Crop, (brought, limits): (u8, [f32; 2]), power: f64) -> Self {
+    pub(super) fn new(layout: &ChannelLayout, window: Crop, (brought, limits): (u16, [f32; 2]), power: f64) -> Self {
         let unit = power.max(f64::MIN_POSITIVE).log2().ceil().exp2() * UNIT;
         Self::scaled(layout, window, (brought, limits), unit.recip())
     }
 
     /// The same with a known scale.
-    pub(super) fn scaled(layout: &ChannelLayout, window: Crop, (brought, limits): (u8, [f32; 2]), scale: f64) -> Self {
+    pub(super) fn scaled(layout: &ChannelLayout, window: Crop, (brought, limits): (u16, [f32; 2]), scale: f64) -> Self {
         let of_aov = |aov: &Aov| share_of(*aov, brought).filter(|share| *share != Share::Radiance);
         // What is limited apart is summed apart.
         let direct = (limits != [0.0; 2] && brought & DIRECT != 0).then_some(Share::Classes(DIRECT));
@@ -206,12 +206,12 @@ impl SplatFilm {
 const KINDS: [ScatteringKind; 3] = [ScatteringKind::Diffuse, ScatteringKind::Glossy, ScatteringKind::Transmission];
 
 /// The light that a pass shows of what light paths bring, if any.
-fn share_of(aov: Aov, brought: u8) -> Option<Share> {
+fn share_of(aov: Aov, brought: u16) -> Option<Share> {
     let classes = match aov {
         Aov::Color | Aov::Luminance => return Some(Share::Radiance),
         Aov::LightGroup(number) => return Some(Share::Group(number)),
-        Aov::Light(kind, LightPart::Direct) => 1u8 << kind as u8,
-        Aov::Light(kind, LightPart::Indirect) => 8u8 << kind as u8,
+        Aov::Light(kind, LightPart::Direct) => 1u16 << kind as u16,
+        Aov::Light(kind, LightPart::Indirect) => 16u16 << kind as u16,
         Aov::LightPaths(classes, _) => classes,
         _ => return None,
     };
@@ -224,5 +224,6 @@ fn kind_share(splat: &Splat, kind: ScatteringKind, channel: usize) -> f64 {
         ScatteringKind::Diffuse => diffuse,
         ScatteringKind::Glossy => glossy,
         ScatteringKind::Transmission => (1.0 - diffuse - glossy).max(0.0),
+        ScatteringKind::Volume => 0.0,
     }
 }

@@ -315,8 +315,8 @@ fn fill(aov: Aov, channels: &mut [f32], layout: &ChannelLayout, gathered: &TileS
 }
 
 /// The sum of classes of light; their codes are the bits' numbers.
-fn fill_light_paths(classes: u8, channels: &mut [f32], gathered: &TileSums, exposure: f32) {
-    for class in (0..8).filter(|class| classes >> class & 1 == 1) {
+fn fill_light_paths(classes: u16, channels: &mut [f32], gathered: &TileSums, exposure: f32) {
+    for class in (0..10).filter(|class| classes >> class & 1 == 1) {
         for (out, column) in channels.chunks_exact_mut(BATCH).zip(gathered.lights.part(class)) {
             out.iter_mut().zip(&column[..BATCH]).for_each(|(out, value)| *out += value * exposure);
         }

@@ -320,6 +320,7 @@ impl Tracing<'_> {
             integrator: Integrator::Path,
             max_bounces: self.options.max_bounces,
             kind_bounces: [255; 4],
+            volume_bounces: 255,
             clamp_direct: 0.0,
             clamp_indirect: 0.0,
             aovs: Vec::new(),

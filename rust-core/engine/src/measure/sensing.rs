@@ -30,6 +30,7 @@ pub(super) fn unlimited(settings: &Settings) -> Settings {
         noise_threshold: 0.0,
         antialiasing: Antialiasing::Sampled,
         kind_bounces: [MOST_BOUNCES; 4],
+        volume_bounces: MOST_BOUNCES,
         clamp_direct: 0.0,
         clamp_indirect: 0.0,
         caustic_paths: [true; 2],

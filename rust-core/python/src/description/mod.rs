@@ -55,11 +55,12 @@ pub(crate) fn visibility(asked: HashMap<String, bool>) -> PyResult<(Visibility, 
             "diffuse" => &mut visibility.diffuse,
             "glossy" => &mut visibility.glossy,
             "transmission" => &mut visibility.transmission,
+            "volume" => &mut visibility.volume,
             "shadow" => &mut visibility.shadow,
             "holdout" => &mut holdout,
             "shadow_catcher" => &mut shadow_catcher,
             other => {
-                let expected = "camera, diffuse, glossy, transmission, shadow, holdout or shadow_catcher";
+                let expected = "camera, diffuse, glossy, transmission, volume, shadow, holdout or shadow_catcher";
                 return Err(setting("visibility", format!("'{other}' was found, expected {expected}")));
             }
         };

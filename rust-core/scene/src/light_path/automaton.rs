@@ -3,8 +3,8 @@
 use super::pattern::{Event, Expression, Pattern};
 use std::collections::BTreeMap;
 
-/// Scatterings that paths tell apart: reflected and transmitted, each diffuse, glossy and sharp.
-pub const SCATTERINGS: [(char, char); 6] = [('R', 'D'), ('R', 'G'), ('R', 'S'), ('T', 'D'), ('T', 'G'), ('T', 'S')];
+/// Scatterings that paths tell apart: reflected and transmitted, each diffuse, glossy and sharp, and in media.
+pub const SCATTERINGS: [(char, char); 7] = [('R', 'D'), ('R', 'G'), ('R', 'S'), ('T', 'D'), ('T', 'G'), ('T', 'S'), ('V', 'V')];
 /// Entries of a state in [`PathAutomaton::next`], so that shifts find them.
 pub const STEPS: usize = 8;
 /// Most states of all expressions together.

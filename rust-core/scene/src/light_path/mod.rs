@@ -13,9 +13,9 @@ use pattern::Expression;
 /// The light that an expression asks for.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum LightPath {
-    /// Classes of light: bit 0 to 2 is direct light by the kind of its only scattering, 3 to 5 indirect light by the kind of the first, 6 what
-    /// surfaces and lamps that the camera sees emit, 7 lights at infinity that it sees.
-    Classes(u8),
+    /// Classes of light: bit 0 to 3 is direct light by the kind of its only scattering, 4 to 7 indirect light by the kind of the first, 8 what
+    /// surfaces, media and lamps that the camera sees emit, 9 lights at infinity that it sees.
+    Classes(u16),
     /// All light of a group.
     Group(String),
     /// Light whose path an automaton takes.
@@ -24,12 +24,12 @@ pub enum LightPath {
 
 impl LightPath {
     /// Bits of all classes.
-    pub const ALL: u8 = 255;
+    pub const ALL: u16 = 1023;
 }
 
-/// Numbers of scatterings in [`SCATTERINGS`] by kind: diffuse, reflected off facets, refracted. Light that is scattered through surfaces diffusely
-/// counts as diffuse.
-const KINDS: [[usize; 2]; 3] = [[0, 3], [1, 2], [4, 5]];
+/// Numbers of scatterings in [`SCATTERINGS`] by kind: diffuse, reflected off facets, refracted, in media. Light that is scattered through surfaces
+/// diffusely counts as diffuse.
+const KINDS: [[usize; 2]; 4] = [[0, 3], [1, 2], [4, 5], [6, 6]];
 
 /// What light an expression asks for.
 ///
@@ -39,7 +39,7 @@ pub fn light_path(expression: &str) -> Result<LightPath, String> {
     let parsed = Expression::parse(expression)?;
     let automaton = PathAutomaton::of(std::slice::from_ref(&parsed))?;
     if automaton.accepted.iter().all(|asked| *asked == 0) {
-        return Err("no light comes on such paths; expressions end with the light, as C<RD>L, and there are no volumes (V)".to_owned());
+        return Err("no light comes on such paths; expressions end with the light, as C<RD>L".to_owned());
     }
     Ok(match (classes(&automaton, &parsed, 0), parsed.labels.as_slice()) {
         (Some(classes), []) => LightPath::Classes(classes),
@@ -50,7 +50,7 @@ pub fn light_path(expression: &str) -> Result<LightPath, String> {
 }
 
 /// The classes of light with a label that an automaton asks for; `None` where it asks for parts of one.
-fn classes(automaton: &PathAutomaton, expression: &Expression, label: usize) -> Option<u8> {
+fn classes(automaton: &PathAutomaton, expression: &Expression, label: usize) -> Option<u16> {
     let asked = |state: usize, source: LightSource| {
         automaton.accepted[state * automaton.kinds() + source as usize * (automaton.labels.len() + 1) + label] == 1
     };
@@ -68,11 +68,11 @@ fn classes(automaton: &PathAutomaton, expression: &Expression, label: usize) -> 
         if front != back && !(is_diffuse && back == [false; 2]) {
             return None;
         }
-        classes |= u8::from(front[0]) << kind | u8::from(front[1]) << (3 + kind);
+        classes |= u16::from(front[0]) << kind | u16::from(front[1]) << (KINDS.len() + kind);
     }
     let [lamp, surface, infinite] = LightSource::ALL.map(|source| asked(0, source));
     let seen = if expression.names('O') { lamp || surface } else { lamp };
-    Some(classes | u8::from(seen) << 6 | u8::from(infinite) << 7)
+    Some(classes | u16::from(seen) << 8 | u16::from(infinite) << 9)
 }
 
 /// Whether light is asked for that is scattered again behind a state, whatever scatters it; `None` where that matters.
@@ -98,13 +98,14 @@ fn further(automaton: &PathAutomaton, state: usize, alike: impl Fn(usize) -> Opt
 mod tests {
     use super::*;
 
-    const DIFFUSE: u8 = 1;
-    const GLOSSY: u8 = 2;
-    const TRANSMITTED: u8 = 4;
-    /// Bits of what surfaces scatter.
-    const SCATTERED: u8 = 63;
+    const DIFFUSE: u16 = 1;
+    const GLOSSY: u16 = 2;
+    const TRANSMITTED: u16 = 4;
+    const VOLUME: u16 = 8;
+    /// Bits of what surfaces and media scatter.
+    const SCATTERED: u16 = 255;
 
-    fn classes_of(expression: &str) -> u8 {
+    fn classes_of(expression: &str) -> u16 {
         match light_path(expression) {
             Ok(LightPath::Classes(classes)) => classes,
             other => panic!("{expression}: {other:?}"),
@@ -118,21 +119,24 @@ mod tests {
         }
         assert_eq!(classes_of("C.+[LOB]"), SCATTERED);
         for (expression, classes) in [
-            ("CO", 64),
-            ("CB", 128),
-            ("C[LO]", 192),
+            ("CO", 256),
+            ("CB", 512),
+            ("C[LO]", 768),
             ("C<RD>L", DIFFUSE),
             ("C<RD>[<L.>O]", DIFFUSE),
-            ("C <RD> .+ L", DIFFUSE << 3),
-            ("C<RD>.*[LO]", DIFFUSE | DIFFUSE << 3),
-            ("C<RD>{1}.{0,}L", DIFFUSE | DIFFUSE << 3),
+            ("C <RD> .+ L", DIFFUSE << 4),
+            ("C<RD>.*[LO]", DIFFUSE | DIFFUSE << 4),
+            ("C<RD>{1}.{0,}L", DIFFUSE | DIFFUSE << 4),
             ("C<RS>L", GLOSSY),
-            ("C<R[SG]>.*L", GLOSSY | GLOSSY << 3),
+            ("C<R[SG]>.*L", GLOSSY | GLOSSY << 4),
             ("C<TS>[LO]", TRANSMITTED),
+            ("CVL", VOLUME),
+            ("C<V.>.+L", VOLUME << 4),
+            ("C[<RD>V].*L", DIFFUSE | VOLUME | DIFFUSE << 4 | VOLUME << 4),
             ("CDL", DIFFUSE),
             ("C(<RD>|<RG>)L", DIFFUSE | GLOSSY),
             ("C<[RT]S>L", GLOSSY | TRANSMITTED),
-            ("C<TS>.{4,}L|C<TS>.{0,3}L", TRANSMITTED | TRANSMITTED << 3),
+            ("C<TS>.{4,}L|C<TS>.{0,3}L", TRANSMITTED | TRANSMITTED << 4),
         ] {
             assert_eq!(classes_of(expression), classes, "{expression}");
         }
@@ -148,8 +152,20 @@ mod tests {
 
     #[test]
     fn parts_of_classes_are_followed() {
-        let parts =
-            ["C<RD><RD>L", "CDDL", "C<RD>D*L", "C<TD>L", "C[^<RD>]L", "C<RD>O", "C.*B", "C.+[LO]|CB", "CS*GL", "C.*<TS>L", "C.{4}L"];
+        let parts = [
+            "C<RD><RD>L",
+            "CDDL",
+            "C<RD>D*L",
+            "C<TD>L",
+            "C[^<RD>]L",
+            "C<RD>O",
+            "C.*B",
+            "C.+[LO]|CB",
+            "CS*GL",
+            "C.*<TS>L",
+            "C.{4}L",
+            "C.*V.*L",
+        ];
         for other in parts {
             assert_eq!(light_path(other), Ok(LightPath::Followed), "{other}");
         }
@@ -160,7 +176,6 @@ mod tests {
         for (other, part) in [
             ("C<RD>", "no light"),
             ("", "no light"),
-            ("C.*V.*L", "volumes"),
             ("C[", "ends"),
             ("C<RD", "ends"),
             ("C(L", "ends"),

@@ -3,5 +3,6 @@
 //! [`set::MediaSet`] is what a ray is in, [`set::MediaColumns`] keep it where rays wait. Transmittance is asked for in two places alone: along a segment
 //! ([`set::MediaSet::transmittance`]), and along shadow rays that pass surfaces ([`shadow`]).
 
+pub(crate) mod phase;
 pub mod set;
 pub mod shadow;

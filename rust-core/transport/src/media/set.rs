@@ -1,14 +1,14 @@
 //! The media that a ray is in (Cycles' volume stack).
 //!
-//! Media that fill meshes overlap: their extinctions add up, and each is left by its name. Solids, which bend rays at their surfaces, take each other's
-//! place. Nothing scatters: extinction is absorption.
+//! Media that fill meshes, or all of space, overlap: their coefficients add up, and each is left by its name. Solids, which bend rays at their surfaces,
+//! take each other's place.
 
 use crate::tables::media::MediumTable;
 use gonio_camera::Surroundings;
 use gonio_simd::{Column, F, Lanes, M, Rgb, Spectrum, SpectrumColumns, U};
 
 /// Lights further away than this are infinitely far.
-pub(super) const FAR: f32 = 1e20;
+pub(crate) const FAR: f32 = 1e20;
 /// Bits of a name, two of which stand in a word.
 const BITS: u32 = 16;
 const NAME: u32 = (1 << BITS) - 1;
@@ -16,10 +16,20 @@ const NAME: u32 = (1 << BITS) - 1;
 /// One register of what rays are in.
 #[derive(Clone, Copy, Debug)]
 pub struct MediaSet<L: Lanes> {
-    /// Rows of up to four media that fill the place; 0 is none. Two bodies full of one medium stand there twice, a fifth is left out.
+    /// Rows of up to three media that fill the place, and that of the solid about it, if it scatters; 0 is none. Two bodies full of one medium stand there
+    /// twice, a fourth is left out.
     names: [U<L>; 2],
-    /// Absorption a metre of the solid about the place.
+    /// Absorption a metre of the solid about the place, where it has no row.
     solid: Spectrum<L>,
+}
+
+/// What is under a surface that bends rays: it absorbs, or is a row of the table.
+#[derive(Clone, Copy, Debug)]
+pub struct Solid<L: Lanes> {
+    /// Absorption a metre of one without a row.
+    pub absorption: Spectrum<L>,
+    /// The row of one that scatters, 0 for none.
+    pub row: u32,
 }
 
 impl<L: Lanes> MediaSet<L> {
@@ -27,6 +37,12 @@ impl<L: Lanes> MediaSet<L> {
     #[inline(always)]
     pub fn open(l: L) -> Self {
         Self { names: [l.u(0); 2], solid: Spectrum::zero(l) }
+    }
+
+    /// What fills all of space alone, a row of the table.
+    #[inline(always)]
+    pub(crate) fn everywhere(l: L, media: &MediumTable) -> Self {
+        Self { names: [l.u(media.everywhere), l.u(0)], ..Self::open(l) }
     }
 
     /// What a place is in, as [`crate::surroundings_at`] tells; in every lane.
@@ -44,16 +60,26 @@ impl<L: Lanes> MediaSet<L> {
 
     /// What is behind a surface that encloses a solid with this absorption, if it does, and what a row of the table fills.
     #[inline(always)]
-    pub fn behind(self, solid: Option<Spectrum<L>>, filling: Option<u32>, entering: M<L>) -> Self {
+    pub fn behind(self, solid: Option<Solid<L>>, filling: Option<u32>, entering: M<L>) -> Self {
         let filled = match filling {
             Some(row) => self.entered(row, entering).left(row, !entering),
             None => self,
         };
         match solid {
             // Leaving a solid leads to the open.
-            Some(solid) => Self { solid: solid.keep_if(entering), ..filled },
+            Some(Solid { absorption, row }) => {
+                let [first, second] = filled.names;
+                let own = second.lanes().u(row << BITS).keep_if(entering);
+                Self { solid: absorption.keep_if(entering), names: [first, (second & NAME) | own] }
+            }
             None => filled,
         }
+    }
+
+    /// Where any medium has a name here; solids have none.
+    #[inline(always)]
+    pub(crate) fn is_filled(self) -> M<L> {
+        (self.names[0] | self.names[1]).ne(0)
     }
 
     /// With one medium more.
@@ -71,12 +97,11 @@ impl<L: Lanes> MediaSet<L> {
     /// With another name in the first place that has this one.
     #[inline(always)]
     fn exchanged(mut self, from: u32, to: u32, mut chosen: M<L>) -> Self {
-        for word in &mut self.names {
-            for shift in [0, BITS] {
-                let here = chosen & ((*word >> shift) & NAME).eq(from);
-                *word = here.select(*word ^ ((from ^ to) << shift), *word);
-                chosen = chosen.and_not(here);
-            }
+        for (word, shift) in [(0, 0), (0, BITS), (1, 0)] {
+            let word = &mut self.names[word];
+            let here = chosen & ((*word >> shift) & NAME).eq(from);
+            *word = here.select(*word ^ ((from ^ to) << shift), *word);
+            chosen = chosen.and_not(here);
         }
         self
     }
@@ -85,17 +110,29 @@ impl<L: Lanes> MediaSet<L> {
     /// all of them, solids behind what is bent.
     #[inline(always)]
     pub fn towards(self, behind: Self, across: M<L>, straight: M<L>) -> Self {
-        let names = [0, 1].map(
+        let bent = across.and_not(straight);
+        let [first, second] = [0, 1].map(
             #[inline(always)]
             |word| across.select(behind.names[word], self.names[word]),
         );
-        Self { names, solid: across.and_not(straight).select(behind.solid, self.solid) }
+        let solid = bent.select(behind.names[1], self.names[1]) >> BITS << BITS;
+        Self { names: [first, (second & NAME) | solid], solid: bent.select(behind.solid, self.solid) }
     }
 
     /// Extinction a metre of all of them together.
     #[inline(always)]
     pub fn extinction(self, media: &MediumTable) -> Spectrum<L> {
         self.of_names(media) + self.solid
+    }
+
+    /// The rows of the media, by their order; `None` where no lane has as many.
+    #[inline(always)]
+    pub(crate) fn rows(self) -> [Option<U<L>>; 4] {
+        let [first, second] = self.names;
+        [first & NAME, first >> BITS, second & NAME, second >> BITS].map(
+            #[inline(always)]
+            |row| row.ne(0).any().then_some(row),
+        )
     }
 
     #[inline(always)]
@@ -107,7 +144,7 @@ impl<L: Lanes> MediaSet<L> {
         }
         for word in self.names {
             if word.ne(0).any() {
-                sum = sum + media.absorption(l, word & NAME) + media.absorption(l, word >> BITS);
+                sum = sum + media.extinction(l, word & NAME) + media.extinction(l, word >> BITS);
             }
         }
         sum
@@ -163,13 +200,18 @@ impl MediaColumns {
         let [first, second] = &self.names;
         MediaSet { names: [l.gather_integers(first, ray), l.gather_integers(second, ray)], solid: self.solid.gather(l, ray) }
     }
+    /// Puts the first `count` rays into what fills all of space, a row of the table.
+    pub fn fill(&mut self, count: usize, everywhere: u32) {
+        self.names[0][..count].fill(everywhere);
+    }
     /// Copies those of one ray over another's.
     pub fn copy(&mut self, from: usize, to: usize) {
         self.names.iter_mut().for_each(|column| column[to] = column[from]);
         self.solid.copy(from, to);
     }
-    /// Sets the solid about a ray to one of some absorptions.
-    pub(crate) fn set_solid(&mut self, ray: usize, absorption: &SpectrumColumns, from: usize) {
+    /// Sets the solid about a ray to one of some absorptions, or to a row of the table.
+    pub(crate) fn set_solid(&mut self, ray: usize, (absorption, from): (&SpectrumColumns, usize), row: u32) {
+        self.names[1][ray] = self.names[1][ray] & NAME | row << BITS;
         self.solid.scale(ray, 0.0);
         self.solid.add(ray, absorption, from, 1.0);
     }

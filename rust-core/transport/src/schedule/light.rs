@@ -9,6 +9,7 @@ use crate::stage::find::segments::Segments;
 use crate::stage::find::sort::{list_materials, sort_by_material};
 use crate::stage::light::shadow::occlude;
 use crate::stage::light::textured_emission::emit_from_starts;
+use crate::stage::medium::{self, MediumContext};
 use crate::stage::shade::closure::choose_closures;
 use crate::stage::shade::forward::{LightIntegrator, Splat, Wanted};
 use crate::stage::start::emit::{Emission, dim_starts, emit};
@@ -109,8 +110,13 @@ impl LightTracer<'_> {
         flux
     }
 
-    /// What absorbs where the paths start.
+    /// What fills the places where the paths start.
     fn find_media(&self, ws: &mut Workspace) {
+        let everywhere = self.tables.materials.media.everywhere;
+        if everywhere != 0 {
+            let Paths { count, media, .. } = &mut ws.paths;
+            media.fill(*count, everywhere);
+        }
         let bodies = match self.emission {
             Emission::Lights(_) => &self.tables.bodies.around_lights,
             Emission::Rays(_) => &self.tables.bodies.absorbing,
@@ -139,6 +145,11 @@ impl LightTracer<'_> {
         ws.paths.set_times(&ws.times);
         find_surfaces(tables, transport, &ws.paths, &mut ws.nearest);
         receiver.travelled(&Segments::new(&tables.materials.media, &ws.paths, &ws.nearest.hits, &ws.queues.light_paths.starts));
+        ws.queues.next.clear();
+        // What light paths bring of caustics alone is dimmed by what scatters: camera paths find the scattered light.
+        if tables.materials.media.scatters() && !self.wanted.specular_only {
+            medium::pass_light(&MediumContext { tables, transport, sample }, &mut ws.paths, &mut ws.nearest, &mut ws.queues.next);
+        }
         let light_paths = &mut ws.queues.light_paths;
         (light_paths.arrivals.count, light_paths.escapes.count) = (0, 0);
         dispatch!(transport.execution, l => {
@@ -148,7 +159,6 @@ impl LightTracer<'_> {
         choose_closures(tables, transport, sample, &mut ws.paths, &ws.nearest.hits, &mut ws.materials, &mut ws.chunk, None);
         sort_by_material(tables, transport, &mut ws.materials);
         ws.statistics.spent(Stage::Intersect, time);
-        ws.queues.next.clear();
         steps::shade(tracer, &LightIntegrator { wanted: self.wanted }, sample, ws);
         let time = Instant::now();
         let context = WalkContext { tables, transport, sample, paths: &ws.paths, times: &ws.times, lit: false };

@@ -8,6 +8,7 @@ use crate::stage::find::surface::{ChunkRays, ChunkSource};
 use crate::stage::find::{found_light, intersect};
 use crate::stage::light::measure::MeasureContext;
 use crate::stage::light::shadow;
+use crate::stage::medium::{self, MediumContext};
 use crate::stage::shade::catcher;
 use crate::stage::shade::integrator::Integrator;
 use crate::stage::shade::shading::shade_chunk;
@@ -45,6 +46,20 @@ pub(crate) fn intersect(tracer: &Tracer<'_>, depth: u32, ws: &mut Workspace) {
     statistics.count_lanes(depth, LaneStage::Escaped, escaped.next_multiple_of(transport.execution.lanes()), escaped);
     catcher::fork(tables, paths, &mut nearest.hits);
     dispatch!(transport.execution, l => list_materials(l, tables, &nearest.hits, &mut ws.materials.material_of));
+}
+
+/// Takes paths through the media before what they hit.
+pub(crate) fn pass_media(tracer: &Tracer<'_>, sample: &SampleContext<'_>, ws: &mut Workspace) {
+    let Tracer { tables, transport, start } = tracer;
+    let media = &tables.materials.media;
+    // Baked places have no way before them.
+    let known = sample.depth == 0 && matches!(start, Start::Places(_));
+    if known || !(media.scatters() || media.shines()) {
+        return;
+    }
+    let context = MediumContext { tables, transport, sample };
+    medium::pass(&context, &mut ws.paths, &mut ws.nearest, &mut ws.queues, &mut ws.deposits);
+    dispatch!(transport.execution, l => list_materials(l, tables, &ws.nearest.hits, &mut ws.materials.material_of));
 }
 
 /// Shades all surface hits, material by material, a chunk at a time.

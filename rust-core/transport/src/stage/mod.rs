@@ -20,6 +20,7 @@
 
 pub(crate) mod find;
 pub(crate) mod light;
+pub(crate) mod medium;
 pub(crate) mod shade;
 pub(crate) mod start;
 pub(crate) mod walk;

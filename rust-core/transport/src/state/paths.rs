@@ -225,7 +225,7 @@ impl Paths {
                 _ if flags & flag::CAMERA != 0 => ray_mask::CAMERA,
                 // What a light sends is seen by what casts shadows.
                 _ if flags & flag::FROM_LIGHT != 0 && flags >> flag::BOUNCE_SHIFT == 0 => ray_mask::SHADOW,
-                _ => ray_mask::DIFFUSE << (flags >> flag::LAST_SHIFT & 3),
+                _ => ray_mask::OF_KIND[(flags >> flag::LAST_SHIFT & 3) as usize],
             };
         }
     }

@@ -21,9 +21,9 @@ pub(crate) struct StartRoom {
     pub(crate) crossings: Vec<TransparentHit>,
     /// By crossing, 1 where the ray enters the body, else −1.
     pub(crate) sides: Vec<f32>,
-    /// By crossing, absorption a metre of the solid behind the surface, and whether there is one.
+    /// By crossing, absorption a metre of the solid behind the surface, and its row where there is a solid, 0 where that does not scatter.
     pub(crate) absorption: SpectrumColumns,
-    pub(crate) solid: Vec<bool>,
+    pub(crate) solid: Vec<Option<u32>>,
     /// By crossing, the row of what fills the body; 0 is nothing.
     pub(crate) filling: Vec<u32>,
     /// Those of a chunk.

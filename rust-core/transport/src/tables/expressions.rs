@@ -13,6 +13,8 @@ pub(crate) mod scattering {
     pub(crate) const SHARP: u32 = 2;
     /// From here on: the same, sent through.
     pub(crate) const THROUGH: u32 = 3;
+    /// In a medium.
+    pub(crate) const VOLUME: u32 = 6;
 }
 
 /// Bits of a scattering's number in [`PathExpressions::next`].

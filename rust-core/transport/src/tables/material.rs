@@ -32,6 +32,8 @@ pub struct SurfaceMaterial {
     pub emits_apart: bool,
     /// What fills the closed mesh, a row of [`MaterialTable::media`], if anything does.
     pub interior: Option<u32>,
+    /// What the solid under it is, a row of the same table, where that scatters; else it absorbs as the parameters say.
+    pub solid_medium: Option<u32>,
     /// Whether the shading frame's tangent matters.
     pub anisotropic: bool,
     /// Whether it cuts a hole into the coverage.
@@ -144,6 +146,10 @@ impl MaterialTable {
     /// Whether what a material of the geometry covers is a solid, whose surface bends what goes in.
     pub fn is_solid(&self, number: u32) -> bool {
         self.closures(number).iter().any(|closure| closure.surface.is_solid())
+    }
+    /// The row of the solid that a material of the geometry covers, 0 where it does not scatter; of a mix that of its first closure with one.
+    pub fn solid_medium(&self, number: u32) -> u32 {
+        self.closures(number).iter().find_map(|closure| closure.solid_medium).unwrap_or(0)
     }
     /// What bends the normal where walks come out of a material of the geometry; of a mix that of its first closure with one.
     pub fn exit(&self, number: u32) -> Option<&Program> {

@@ -112,6 +112,8 @@ pub struct Limits {
     pub max_bounces: u32,
     /// The same by kind: diffuse, glossy, transmitted, straight through; at most 255.
     pub kind_bounces: [u32; 4],
+    /// The same in media.
+    pub volume_bounces: u32,
     /// Limits of direct and indirect contributions, as means of their channels; 0 is off.
     pub clamps: [f32; 2],
     /// Whether paths that were scattered diffusely last meet reflection off facets, and refraction (Cycles' switches of caustics).
@@ -145,9 +147,11 @@ impl Limits {
 
     /// Whether the bounces of each kind are within their limits.
     #[inline(always)]
-    pub(crate) fn allow<L: Lanes>(&self, counts: U<L>) -> M<L> {
+    pub(crate) fn allow<L: Lanes>(&self, counts: U<L>, bounces: U<L>) -> M<L> {
         let within = |kind: u32| counts::of(counts, kind).lt(self.kind_bounces[kind as usize] + 1);
-        within(event::DIFFUSE) & within(event::GLOSSY) & within(event::TRANSMISSION)
+        let on_surfaces = within(event::DIFFUSE) & within(event::GLOSSY) & within(event::TRANSMISSION);
+        let most = self.volume_bounces;
+        if most < 255 { on_surfaces & counts::in_media(counts, bounces).lt(most + 1) } else { on_surfaces }
     }
 
     /// Whether the number of surfaces that light goes straight through is limited.

@@ -21,3 +21,10 @@ pub(crate) fn of<L: Lanes>(counts: U<L>, kind: u32) -> U<L> {
 pub(crate) fn straight<L: Lanes>(counts: U<L>) -> U<L> {
     counts >> 24
 }
+
+/// Scatterings in media: what is left of all `bounces`.
+#[inline(always)]
+pub(crate) fn in_media<L: Lanes>(counts: U<L>, bounces: U<L>) -> U<L> {
+    let on_surfaces = of(counts, event::DIFFUSE) + of(counts, event::GLOSSY) + of(counts, event::TRANSMISSION);
+    bounces - on_surfaces
+}

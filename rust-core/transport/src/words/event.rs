@@ -6,3 +6,5 @@ pub(crate) const DIFFUSE: u32 = 0;
 pub(crate) const GLOSSY: u32 = 1;
 /// Refraction.
 pub(crate) const TRANSMISSION: u32 = 2;
+/// Off what floats in a medium.
+pub(crate) const VOLUME: u32 = 3;

@@ -18,7 +18,11 @@ pub const CATCHER_SHADOW: RayMask = 32;
 pub const CATCHER_SCATTERED: RayMask = 64;
 /// Shadow rays to lights that some instances alone block; of one kind of such lights.
 pub const LINKED_SHADOW: RayMask = 128;
+/// Rays that media scattered.
+pub const VOLUME: RayMask = 256;
 /// All scattered rays.
-pub const INDIRECT: RayMask = DIFFUSE | GLOSSY | TRANSMISSION;
+pub const INDIRECT: RayMask = DIFFUSE | GLOSSY | TRANSMISSION | VOLUME;
+/// By kind of scattering.
+pub(crate) const OF_KIND: [RayMask; 4] = [DIFFUSE, GLOSSY, TRANSMISSION, VOLUME];
 /// What every ray and every instance shares a bit with.
 pub const ALL: RayMask = RayMask::MAX;

@@ -54,10 +54,13 @@ fn follow_bounce(
     let Tracer { tables, transport, .. } = tracer;
     let time = Instant::now();
     steps::intersect(tracer, sample.depth, ws);
+    ws.queues.next.clear();
+    if integrator.lit {
+        steps::pass_media(tracer, sample, ws);
+    }
     choose_closures(tables, transport, sample, &mut ws.paths, &ws.nearest.hits, &mut ws.materials, &mut ws.chunk, Some(&mut ws.deposits));
     sort_by_material(tables, transport, &mut ws.materials);
     ws.statistics.spent(Stage::Intersect, time);
-    ws.queues.next.clear();
     steps::shade(tracer, integrator, sample, ws);
     let time = Instant::now();
     let context = WalkContext { tables, transport, sample, paths: &ws.paths, times: &ws.times, lit: true };

@@ -85,7 +85,7 @@ impl Integrator for WhittedIntegrator<'_> {
                 // A pane has been seen itself.
                 straight.share += if material.surface.lobes.straight { point.share.keep_if(present) } else { l.f(0.0) };
             } else {
-                let going_on = point.bounces.lt(transport.limits.max_bounces) & transport.limits.allow(point.core.counts);
+                let going_on = point.bounces.lt(transport.limits.max_bounces) & transport.limits.allow(point.core.counts, point.bounces);
                 let wi = point.at.frame.to_world(ray.wi).normalize();
                 branch(chunk, point, &Branch { way, wi, throughput, share: l.f(0.0) }, going_on, branches);
             }

@@ -120,7 +120,8 @@ impl Integrator for LightIntegrator<'_> {
         let whole = self.wanted.is_whole();
         let light = LightHits { hits, geometric: point.at.frame.to_local(point.at.geometric), whole };
         let mut room = Lobes::empty(l);
-        let going_on = present & point.bounces.lt(transport.limits.max_bounces + 1) & transport.limits.allow(point.core.counts);
+        let going_on =
+            present & point.bounces.lt(transport.limits.max_bounces + 1) & transport.limits.allow(point.core.counts, point.bounces);
         if let Some(picture) = &self.wanted.picture {
             let seen =
                 (going_on & lit & non_specular & (point.bounces.ne(0) | l.m(!self.wanted.specular_only))).and_not(hidden(chunk, point));

@@ -66,9 +66,9 @@ fn start_walks<L: Lanes>(point: &Vertex<L>, wi: Vec3<L>, throughput: Spectrum<L>
 
 /// The probability with which a path goes on: Russian roulette.
 #[inline(always)]
-fn survival<L: Lanes>(chunk: &ChunkContext<'_, L>, throughput: Spectrum<L>, diffuse: M<L>) -> F<L> {
-    let l = chunk.l;
-    let [from_diffuse, from_any] = ROULETTE_FROM.map(|from| chunk.sample.depth >= from);
+pub(crate) fn survival<L: Lanes>(depth: u32, throughput: Spectrum<L>, diffuse: M<L>) -> F<L> {
+    let l = throughput.lanes();
+    let [from_diffuse, from_any] = ROULETTE_FROM.map(|from| depth >= from);
     if !from_diffuse {
         return l.f(1.0);
     }
@@ -199,7 +199,7 @@ pub(crate) fn send_on<L: Lanes>(
         alive = alive.and_not(sample.entered);
         start_walks(point, wi, throughput, medium, entered, walks);
     }
-    let survival = survival(chunk, throughput * point.core.unguided, sample.diffuse);
+    let survival = survival(chunk.sample.depth, throughput * point.core.unguided, sample.diffuse);
     alive &= u_roulette.lt(survival);
     let throughput = throughput * survival.recip();
     if !alive.any() {

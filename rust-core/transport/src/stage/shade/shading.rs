@@ -8,6 +8,7 @@ use crate::accumulate::expression_sums::with_state;
 use crate::accumulate::guides::{add_guides, is_specular_path};
 use crate::geometry::NONE;
 use crate::kernels::{self, LightHit};
+use crate::media::set::Solid;
 use crate::stage::shade::catcher;
 use crate::stage::shade::first_surface::{add_first_surface, without_holdouts};
 use crate::stage::shade::integrator::Integrator;
@@ -149,7 +150,11 @@ fn absorb<L: Lanes>(
     let distance = l.gather(&chunk.hits.t, point.path) - chunk.paths.rays.passed.distance(l, point.path);
     point.core.throughput = point.core.throughput * point.core.media.transmittance(&chunk.tables.materials.media, distance);
     let surface = &material.surface;
-    let solid = if surface.is_solid() { Some(surface.absorption(l, values, at)) } else { None };
+    let solid = match material.solid_medium {
+        Some(row) => Some(Solid { absorption: Spectrum::zero(l), row }),
+        None if surface.is_solid() => Some(Solid { absorption: surface.absorption(l, values, at), row: 0 }),
+        None => None,
+    };
     let entering = l.load(&chunk.columns.surface.side, at).gt(0.0);
     point.behind = point.core.media.behind(solid, material.interior, entering);
 }
@@ -169,7 +174,7 @@ pub(crate) fn guide_and_measure<L: Lanes>(
     point.all_delta = all_delta;
     add_guides(transport, point, lobes, present, &mut deposits.sums);
     // Beyond the last bounce a path still adds emission: the BSDF half of MIS, whose NEE half was sampled before.
-    let going_on = present & point.bounces.lt(transport.limits.max_bounces + 1) & transport.limits.allow(point.core.counts);
+    let going_on = present & point.bounces.lt(transport.limits.max_bounces + 1) & transport.limits.allow(point.core.counts, point.bounces);
     // Nothing comes to where another surface lies.
     let going_on = going_on.and_not(point.at.error.lt(0.0));
     if transport.passes.illuminance {

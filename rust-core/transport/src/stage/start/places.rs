@@ -3,6 +3,7 @@
 //! A pixel says where on a triangle it is, so nothing needs to be traced to find it: what its path "meets" first is written down as a hit.
 
 use crate::geometry::{NONE, SurfacePoint};
+use crate::media::set::MediaSet;
 use crate::stage::find::covered::{BEFORE, BEHIND, covered_lanes};
 use crate::stage::start::generate::TileArea;
 use crate::state::nearest::NearestHits;
@@ -196,7 +197,8 @@ fn append<L: Lanes>(l: L, tables: &Tables, table: &PlaceTable, place: &PlaceLane
     let point = tables.geometry.surface_point(l, &hit);
     // What textures lie in is not known.
     let flags = covered.select(l.u(flag::COVERED), l.u(0)) | (flag::CAMERA | flag::DELTA);
-    let core = PathCore { width: width(place, &point), ..PathCore::new(l, slot, flags) };
+    let media = MediaSet::everywhere(l, &tables.materials.media);
+    let core = PathCore { width: width(place, &point), media, ..PathCore::new(l, slot, flags) };
     if table.measures {
         let measured = MeasureLanes {
             position: point.position,

@@ -22,8 +22,9 @@ const MOST: usize = 4096;
 
 /// The names of the media at a place in rebased world space, and the absorption a metre of the solid about it, R, G, B.
 pub(super) fn media_at(tables: &Tables, origin: [f32; 3]) -> ([u32; 2], [f32; 3]) {
+    let everywhere = tables.materials.media.everywhere;
     if !tables.bodies.absorbing.iter().any(|body| body.may_hold(origin)) {
-        return ([0; 2], [0.0; 3]);
+        return ([everywhere, 0], [0.0; 3]);
     }
     let mut rays = Rays::new(PADDING, ray_mask::ALL);
     for axis in 0..3 {
@@ -31,6 +32,7 @@ pub(super) fn media_at(tables: &Tables, origin: [f32; 3]) -> ([u32; 2], [f32; 3]
         rays.direction[axis][0] = DIRECTION[axis];
     }
     let mut media = MediaColumns::new(PADDING);
+    media.fill(1, everywhere);
     start_media(tables, Execution::Scalar, &tables.bodies.absorbing, &rays, 1, &mut media, &mut StartRoom::default());
     let (names, solid) = media.load(One, 0).parts();
     (names.map(|word| word.0), film_numbers(solid))
@@ -123,7 +125,7 @@ fn look_up(tables: &Tables, execution: Execution, rays: &Rays, room: &mut StartR
             room.absorption.add(at, &room.chunk, i, 1.0);
             room.sides.push(room.columns.surface.side[i]);
         }
-        room.solid.resize(room.sides.len(), tables.materials.is_solid(material));
+        room.solid.resize(room.sides.len(), tables.materials.is_solid(material).then(|| tables.materials.solid_medium(material)));
         room.filling.resize(room.sides.len(), tables.materials.interior(material).unwrap_or(0));
     });
     room.crossings = crossings;
@@ -151,6 +153,9 @@ fn add_inside<L: Lanes>(l: L, tables: &Tables, mut closure: ClosureHits<'_>, sum
     closure.run(l, tables, &material.program);
     let values = parameter_values(material, &closure.columns.outputs);
     for at in (0..closure.hits.len()).step_by(L::COUNT) {
+        if material.solid_medium.is_some() {
+            break;
+        }
         let mut inside = material.surface.absorption(l, &values, at);
         if let Some(weights) = closure.weights {
             inside = inside * weights.load(l, at);
@@ -178,7 +183,7 @@ fn enter_filled(room: &StartRoom, media: &mut MediaColumns) {
 /// away the solid about it.
 fn set_innermost(room: &StartRoom, media: &mut MediaColumns) {
     let StartRoom { crossings, sides, absorption, solid, .. } = room;
-    let mut order: Vec<usize> = (0..crossings.len()).filter(|i| solid[*i]).collect();
+    let mut order: Vec<usize> = (0..crossings.len()).filter(|i| solid[*i].is_some()).collect();
     let (body, t) = (|i: &usize| (crossings[*i].ray, crossings[*i].instance), |i: &usize| crossings[*i].t);
     order.sort_unstable_by(|a, b| body(a).cmp(&body(b)).then(t(a).total_cmp(&t(b))));
     // By body: its nearest crossing, how much oftener the ray leaves it than it enters it, and where it leaves it first.
@@ -193,7 +198,7 @@ fn set_innermost(room: &StartRoom, media: &mut MediaColumns) {
         for (_, left, exit) in of_ray {
             holes -= left;
             if let Some(exit) = exit.filter(|_| holes < 0.0) {
-                media.set_solid(crossings[exit].ray as usize, absorption, exit);
+                media.set_solid(crossings[exit].ray as usize, (absorption, exit), solid[exit].unwrap_or(0));
                 break;
             }
         }

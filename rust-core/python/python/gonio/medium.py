@@ -1,0 +1,45 @@
+"""Media: what fills meshes, or all of space."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+from .description import numbers
+
+# A colour of one number is grey.
+Coefficient = float | Sequence[float]
+
+
+def _rgb(name: str, value: Coefficient) -> list[float]:
+    return [float(value)] * 3 if isinstance(value, (int, float)) else numbers(name, value, 3)
+
+
+def medium(
+    *, absorption: Coefficient = 0.0, scattering: Coefficient = 0.0, emission: Coefficient = 0.0, anisotropy: float = 0.0
+) -> dict[str, Any]:
+    """An even medium: `medium` of a material's description, or what `Scene.put_atmosphere` takes. absorption, scattering: a metre, a number or R, G, B;
+    emission: cd/m² that a metre sends; anisotropy: mean cosine of the angle by which it scatters, from -0.999 back to 0.999 forwards.
+    """
+    parts = {"absorption": absorption, "scattering": scattering, "emission": emission}
+    return {**{name: _rgb(name, value) for name, value in parts.items()}, "anisotropy": float(anisotropy)}
+
+
+def haze(visibility: float, *, contrast: float = 0.05, albedo: Coefficient = 1.0, anisotropy: float = 0.8) -> dict[str, Any]:
+    """Haze or fog by how far one sees. visibility: metres at which a black thing before the sky keeps `contrast`; 0.05 is the meteorological optical
+    range of CIE and WMO, 0.02 Koschmieder's visual range. albedo: part of the light it takes that is scattered; anisotropy: as of `medium`.
+    """
+    if not (math.isfinite(visibility) and visibility > 0.0):
+        raise ValueError(f"visibility is {visibility}, expected metres above 0")
+    if not 0.0 < contrast < 1.0:
+        raise ValueError(f"contrast is {contrast}, expected a number between 0 and 1")
+    extinction = -math.log(contrast) / visibility
+    scattered = _rgb("albedo", albedo)
+    if not all(0.0 <= each <= 1.0 for each in scattered):
+        raise ValueError(f"albedo is {albedo}, expected numbers from 0 to 1")
+    return medium(
+        absorption=[extinction * (1.0 - each) for each in scattered],
+        scattering=[extinction * each for each in scattered],
+        anisotropy=anisotropy,
+    )

@@ -1,0 +1,80 @@
+//! How the media about a place scatter together: a mixture of their phase functions, weighed by their scattering.
+
+use crate::media::set::MediaSet;
+use crate::tables::media::MediumTable;
+use gonio_bsdf::phase::{henyey_greenstein, sample_henyey_greenstein};
+use gonio_simd::{F, Lanes, Spectrum, Vec3};
+
+/// One of the media.
+#[derive(Clone, Copy, Debug)]
+struct Part<L: Lanes> {
+    scattering: Spectrum<L>,
+    anisotropy: F<L>,
+}
+
+/// The phase functions of up to four media.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PhaseMix<L: Lanes> {
+    parts: [Option<Part<L>>; 4],
+    /// Scattering a metre of all together.
+    pub(crate) scattering: Spectrum<L>,
+}
+
+/// A direction that was drawn.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PhaseSample<L: Lanes> {
+    pub(crate) direction: Vec3<L>,
+    /// Per solid angle.
+    pub(crate) pdf: F<L>,
+    /// Value over density.
+    pub(crate) factor: Spectrum<L>,
+}
+
+impl<L: Lanes> PhaseMix<L> {
+    /// That of the media which rays are in.
+    #[inline(always)]
+    pub(crate) fn of(l: L, media: MediaSet<L>, table: &MediumTable) -> Self {
+        let mut scattering = Spectrum::zero(l);
+        let mut parts = [None; 4];
+        for (part, row) in parts.iter_mut().zip(media.rows()) {
+            if let Some(row) = row {
+                let own = table.scattering(l, row);
+                scattering += own;
+                *part = Some(Part { scattering: own, anisotropy: table.anisotropy(l, row) });
+            }
+        }
+        Self { parts, scattering }
+    }
+
+    /// Value and density at a cosine between the directions before and after.
+    #[inline(always)]
+    pub(crate) fn eval(&self, cos: F<L>) -> (Spectrum<L>, F<L>) {
+        let l = cos.lanes();
+        let (mut sum, mut density) = (Spectrum::zero(l), l.f(0.0));
+        for part in self.parts.iter().flatten() {
+            let phase = henyey_greenstein(part.anisotropy, cos);
+            sum += part.scattering * phase;
+            density = part.scattering.mean().mul_add(phase, density);
+        }
+        let safe = self.scattering.max(f32::MIN_POSITIVE);
+        (sum / safe, density / safe.mean())
+    }
+
+    /// Draws a direction for light that goes along another: `u[0]` chooses the medium.
+    #[inline(always)]
+    pub(crate) fn sample(&self, along: Vec3<L>, u: [F<L>; 3]) -> PhaseSample<L> {
+        let l = u[0].lanes();
+        let mut point = u[0] * self.scattering.mean();
+        let (mut anisotropy, mut passed) = (l.f(0.0), l.m(false));
+        for part in self.parts.iter().flatten() {
+            let share = part.scattering.mean();
+            let here = point.lt(share).and_not(passed);
+            anisotropy = here.select(part.anisotropy, anisotropy);
+            passed |= here;
+            point -= share;
+        }
+        let direction = sample_henyey_greenstein(anisotropy, along, [u[1], u[2]]);
+        let (value, pdf) = self.eval(along.dot(direction));
+        PhaseSample { direction, pdf, factor: value * pdf.max(f32::MIN_POSITIVE).recip() }
+    }
+}

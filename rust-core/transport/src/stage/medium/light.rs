@@ -1,0 +1,180 @@
+//! Next event estimation in media: a light is sampled for one place of each way.
+//!
+//! The place is drawn by distance or towards a point of the light (equiangular sampling), by the balance heuristic over both. Kulla and Fajardo,
+//! Importance Sampling Techniques for Path Tracing in Participating Media (2012).
+
+use super::MediumContext;
+use super::scatter::{flags, light_context};
+use super::way::Way;
+use crate::accumulate::deposit::{Contribution, Deposits, code_of_found};
+use crate::accumulate::expression_sums::with_state;
+use crate::kernels;
+use crate::stage::shade::catcher;
+use crate::state::queue::shadow_rays::{Along, ShadowLanes, ShadowRays};
+use crate::state::vertex::Interaction;
+use crate::words::event;
+use gonio_camera::sampler::dimension;
+use gonio_light::{LightSampleContext, power_heuristic};
+use gonio_simd::{F, Frame, Lanes, M, Spectrum, U, Vec3};
+
+/// Optical depths below this are drawn from evenly.
+const THIN: f32 = 0.02;
+/// Lights further away than this lie in a direction, not at a point.
+const FAR: f32 = 1e9;
+/// Part of the places that are drawn towards the light, where it lies at a point.
+const EQUIANGULAR: f32 = 0.5;
+
+/// The density of places along each way by distance, and places drawn from it.
+#[derive(Clone, Copy, Debug)]
+struct ByDistance<L: Lanes> {
+    /// Probabilities of the components of light.
+    channels: Spectrum<L>,
+    extinction: Spectrum<L>,
+    length: F<L>,
+}
+
+impl<L: Lanes> ByDistance<L> {
+    /// The share of a way's light that each component loses on it.
+    #[inline(always)]
+    fn lost(&self, extinction: F<L>) -> F<L> {
+        1.0 - (-(extinction * self.length)).exp()
+    }
+
+    #[inline(always)]
+    fn draw(&self, u: [F<L>; 2]) -> F<L> {
+        let extinction = self.channels.choose(u[0], self.extinction);
+        let thin = (extinction * self.length).lt(THIN);
+        let thick = -(1.0 - u[1] * self.lost(extinction)).max(f32::MIN_POSITIVE).ln() / extinction.max(f32::MIN_POSITIVE);
+        thin.select(u[1] * self.length, thick).min(self.length)
+    }
+
+    #[inline(always)]
+    fn density(&self, distance: F<L>) -> F<L> {
+        let density = self.extinction.map(
+            #[inline(always)]
+            |extinction| {
+                let thin = (extinction * self.length).lt(THIN);
+                let thick = extinction * (-(extinction * distance)).exp() / self.lost(extinction).max(f32::MIN_POSITIVE);
+                thin.select(self.length.max(f32::MIN_POSITIVE).recip(), thick)
+            },
+        );
+        self.channels.dot(density)
+    }
+}
+
+/// The density of places by the angle that a point of the light sees them under.
+#[derive(Clone, Copy, Debug)]
+struct ByAngle<L: Lanes> {
+    /// Metres from the beginning of the way to what is nearest to the point, and from there to the point.
+    nearest: F<L>,
+    apart: F<L>,
+    /// Angles of the way's ends.
+    angles: [F<L>; 2],
+}
+
+impl<L: Lanes> ByAngle<L> {
+    #[inline(always)]
+    fn new(way: &Way<L>, point: Vec3<L>) -> Self {
+        let to = point - way.place(way.pdf.lanes().f(0.0));
+        let nearest = to.dot(way.direction);
+        let apart = (to - way.direction * nearest).length().max(1e-6);
+        Self { nearest, apart, angles: [(-nearest).atan2(apart), (way.length - nearest).atan2(apart)] }
+    }
+
+    #[inline(always)]
+    fn draw(&self, u: F<L>, length: F<L>) -> F<L> {
+        let angle = self.angles[0].lerp(self.angles[1], u);
+        let (sin, cos) = angle.sin_cos();
+        (sin / cos.max(1e-7)).mul_add(self.apart, self.nearest).clamp(0.0, length)
+    }
+
+    #[inline(always)]
+    fn density(&self, distance: F<L>) -> F<L> {
+        let off = distance - self.nearest;
+        let span = (self.angles[1] - self.angles[0]).max(1e-6);
+        self.apart / (span * self.apart.mul_add(self.apart, off * off))
+    }
+}
+
+/// A place of each way to be lit.
+#[derive(Clone, Copy, Debug)]
+struct Place<L: Lanes> {
+    distance: F<L>,
+    /// A metre.
+    pdf: F<L>,
+    /// The light, and the probability with which it was selected.
+    light: (U<L>, F<L>),
+}
+
+/// Selects a light for each way and a place where it is lit by it.
+#[inline(always)]
+fn place<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>) -> Place<L> {
+    let (l, tables) = (way.pdf.lanes(), context.tables);
+    let slot = way.core.slot;
+    let by_distance = ByDistance { channels: way.channels(), extinction: way.extinction, length: way.length };
+    let from = light_context(way.place(by_distance.draw(context.pair(l, slot, dimension::MEDIUM_LOOK))));
+    let [u_light, u_channel] = context.pair(l, slot, dimension::MEDIUM_LIGHT_CHOICE);
+    let cache = context.transport.light_cache.as_deref();
+    let light = kernels::sample_light(l, tables, cache, &from, u_light);
+    let point = kernels::sample_li_of(l, tables, light, &from, &context.pair(l, slot, dimension::MEDIUM_POINT));
+    let near = point.pdf.gt(0.0) & point.distance.lt(FAR);
+    let by_angle = ByAngle::new(way, from.position + point.wi * point.distance.min(FAR));
+    let [u_way, u] = context.pair(l, slot, dimension::MEDIUM_PLACE);
+    let angular = near & u_way.lt(EQUIANGULAR);
+    let distance = angular.select(by_angle.draw(u, way.length), by_distance.draw([u_channel, u]));
+    let drawn = by_distance.density(distance);
+    let pdf = near.select(by_angle.density(distance).lerp(drawn, 1.0 - EQUIANGULAR), drawn);
+    Place { distance, pdf, light }
+}
+
+/// Samples a light for each chosen way and queues the shadow ray to it.
+#[inline(always)]
+pub(super) fn sample<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>, chosen: M<L>, shadows: &mut ShadowRays, deposits: &mut Deposits) {
+    let MediumContext { tables, transport, .. } = *context;
+    if !chosen.any() || tables.lights.is_empty() {
+        return;
+    }
+    let l = way.pdf.lanes();
+    let Place { distance, pdf: place_pdf, light } = place(context, way);
+    let from = light_context(way.place(distance));
+    let sample = kernels::sample_li_of(l, tables, light, &from, &context.pair(l, way.core.slot, dimension::MEDIUM_LIGHT));
+    let usable = chosen & sample.pdf.gt(0.0) & place_pdf.gt(0.0) & sample.radiance.is_lit();
+    let usable = usable & catcher::may_sample(l, tables, way.core.slot, sample.light);
+    if !usable.any() {
+        return;
+    }
+    let (phase, pdf) = way.phase.eval(way.direction.dot(sample.wi));
+    let found = power_heuristic(sample.pdf / light.1.max(f32::MIN_POSITIVE) * pmf(context, &from, light.0, usable), pdf);
+    let weight = sample.delta.select(l.f(1.0), found);
+    let weight = weight * tables.lights.scattered_factor(l, sample.light, l.u(event::VOLUME));
+    let left = way.transmittance(distance) * way.phase.scattering;
+    let whole = sample.radiance * way.core.throughput * left * phase * (weight / (sample.pdf * place_pdf));
+    let value = transport.limits.clamped(whole, way.bounces() + 1);
+    let lit = usable & value.is_lit() & value.abs().max_component().is_finite();
+    let expressions = transport.passes.expressions.as_deref();
+    let flags = flags(context, way);
+    let code = with_state(expressions, code_of_found(flags, 0), flags);
+    let light = Contribution::sampled(sample.light, way.core.slot, value, code, None);
+    let at = floating(&from);
+    deposits.deposit(transport, &light, lit.and_not(sample.casts_shadow));
+    let along = Along::new(tables, transport, way.core.media, way.core.counts, Some(transport.limits.ceiling(way.bounces() + 1)));
+    let Contribution { slot, value: contribution, code, .. } = light;
+    let shares = if deposits.wants_shares(transport) { Some([Spectrum::one(l), Spectrum::zero(l)]) } else { None };
+    let ray = at.spawn_ray_to(&sample);
+    let receiver = if deposits.arrivals.is_some() { Some(at.receiver) } else { None };
+    shadows.append(&ShadowLanes { ray, contribution, slot, code, light: sample.light, shares, receiver, along }, lit & sample.casts_shadow);
+}
+
+/// The probability with which a light is selected at a place, as the weights of rays that find it have it.
+#[inline(always)]
+fn pmf<L: Lanes>(context: &MediumContext<'_>, from: &LightSampleContext<L>, light: U<L>, chosen: M<L>) -> F<L> {
+    kernels::light_pmf(from.position.x.lanes(), context.tables, context.transport.light_cache.as_deref(), from, light.keep_if(chosen))
+}
+
+/// A place in a medium, off which rays start as they are.
+#[inline(always)]
+fn floating<L: Lanes>(from: &LightSampleContext<L>) -> Interaction<L> {
+    let l = from.position.x.lanes();
+    let frame = Frame::from_normal(Vec3::splat(l, [0.0, 0.0, 1.0]));
+    Interaction { position: from.position, error: l.f(0.0), geometric: from.normal, frame, receiver: from.receiver }
+}

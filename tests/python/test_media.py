@@ -1,0 +1,132 @@
+"""Media that scatter: fog in boxes, in all of space and about lamps, against closed forms and Chandrasekhar's functions."""
+
+import math
+
+import gonio
+import numpy as np
+import pytest
+from gonio.medium import haze, medium
+from small_scenes import closure, finished
+
+
+def box(scene, low, high, closures=(), **coefficients):
+    """A box of a medium."""
+    corners = [[(low, high)[i >> axis & 1][axis] for axis in range(3)] for i in range(8)]
+    quads = [(0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6)]
+    triangles = [corner for a, b, c, d in quads for corner in (a, b, c, a, c, d)]
+    surface = list(closures) or [closure("Transparent", base_color=1.0)]
+    material = scene.put_material({"origin": "fog", "closures": surface, "medium": medium(**coefficients)})
+    mesh = scene.add_mesh(np.array(corners, "f4"), np.array(triangles, "i4").reshape(-1, 3))
+    scene.add_instance(mesh, [material])
+
+
+def looking(origin, target, size=8, up=(0.0, 1.0, 0.0), degrees=0.02):
+    """A scene with a camera that sees next to one direction."""
+    scene = gonio.Scene()
+    scene.add_camera(gonio.look_at(origin, target, up), fov=degrees)
+    scene.set(width=size, height=size, filter="box", max_bounces=250, max_transparent_bounces=250, caustics="off", seed=3, passes=["color"])
+    return scene
+
+
+def seen(scene, samples, **settings):
+    """The mean radiance of a picture, R, G, B, and its standard error, of the mean of its channels."""
+    scene.set(samples=samples, **settings)
+    pixels = np.asarray(finished(scene)["color"])[..., :3].reshape(-1, 3).astype(np.float64)
+    return pixels.mean(0), pixels.mean(1).std() / math.sqrt(len(pixels))
+
+
+def within(found, error, expected, relative=0.005):
+    assert error < relative * expected, (error, expected)
+    assert abs(found - expected) < 4.0 * error + 1e-4 * expected, (found, error, expected)
+
+
+# Radiance of a half-space that scatters evenly, under even light of 1: 1 - sqrt(1 - a) H(mu), with Chandrasekhar's H (Radiative Transfer, 1950),
+# by albedo and cosine.
+HALF_SPACE = {
+    (0.5, 1.0): 0.11523,
+    (0.8, 1.0): 0.28525,
+    (0.8, 0.5): 0.36797,
+    (0.95, 1.0): 0.53554,
+    (0.95, 0.1): 0.73274,
+    (0.99, 0.5): 0.81514,
+}
+
+
+@pytest.mark.parametrize(("albedo", "cosine"), HALF_SPACE)
+def test_a_half_space_of_fog(albedo, cosine):
+    sine = math.sqrt(1.0 - cosine**2)
+    scene = looking((5.0 * sine, 5.0 * cosine, 0.0), (0.0, 0.0, 0.0), size=16, up=(0.0, 0.0, 1.0))
+    scene.add_light("dome")
+    box(scene, (-300.0, -60.0, -300.0), (300.0, 0.0, 300.0), scattering=albedo, absorption=1.0 - albedo)
+    found, error = seen(scene, 256)
+    within(found.mean(), error, HALF_SPACE[albedo, cosine], relative=0.01)
+
+
+# Light that a slab scatters once, under an irradiance of 1 across the beam: (1/4 pi mu) (1 - exp(-tau (1 + 1/mu))) / (1 + 1/mu).
+@pytest.mark.parametrize(("depth", "cosine"), [(0.5, 1.0), (0.5, 0.5), (2.0, 1.0)])
+def test_a_slab_that_scatters_once(depth, cosine):
+    sine = math.sqrt(1.0 - cosine**2)
+    scene = looking((5.0 * sine, 5.0 * cosine, 0.0), (0.0, 0.0, 0.0), up=(0.0, 0.0, 1.0))
+    scene.add_light("distant", transform=gonio.look_at((0, 1, 0), (0, 0, 0), (0, 0, 1)))
+    box(scene, (-300.0, -depth, -300.0), (300.0, 0.0, 300.0), scattering=1.0)
+    found, error = seen(scene, 256, max_volume_bounces=0, max_bounces=0)
+    way = 1.0 + 1.0 / cosine
+    within(found.mean(), error, (1.0 - math.exp(-depth * way)) / way / (4.0 * math.pi * cosine))
+
+
+# Airlight of a lamp of 1 cd that the view passes at a distance, 10 m to either side; scattering and absorption a metre.
+@pytest.mark.parametrize(
+    ("distance", "scattering", "extinction", "half", "expected"),
+    [(1.0, 0.1, 0.1, 10.0, 0.0072569), (1.0, 0.5, 0.5, 10.0, 0.00043501), (0.1, 0.2, 0.4, 5.0, 0.060908)],
+)
+def test_airlight_of_a_lamp(distance, scattering, extinction, half, expected):
+    scene = looking((0.0, 0.0, half), (0.0, 0.0, 0.0), degrees=1e-4)
+    scene.add_light("point", transform=gonio.look_at((distance, 0, 0), (distance, 0, -1), (0, 1, 0)))
+    box(scene, (-20.0, -20.0, -half), (20.0, 20.0, half + 1.0), scattering=scattering, absorption=extinction - scattering)
+    found, error = seen(scene, 256, max_volume_bounces=0, max_bounces=0)
+    # The camera stands within, so that the way begins there.
+    within(found.mean(), error, expected)
+
+
+@pytest.mark.parametrize("anisotropy", [0.0, 0.8, -0.6])
+def test_what_only_scatters_vanishes_in_even_light(anisotropy):
+    scene = looking((0.0, 0.0, 5.0), (0.0, 0.0, 0.0), size=16, degrees=40.0)
+    scene.add_light("dome")
+    box(scene, (-1.0, -1.0, -1.0), (1.0, 1.0, 1.0), scattering=(0.5, 1.0, 4.0), anisotropy=anisotropy)
+    box(scene, (-0.5, -0.5, -3.0), (0.7, 0.5, 1.5), scattering=2.0, anisotropy=-anisotropy)
+    found, error = seen(scene, 256)
+    assert found == pytest.approx([1.0] * 3, abs=0.01) and error < 0.003
+
+
+def test_fog_in_all_of_space_takes_the_cameras_and_the_lamps_light():
+    scene = looking((0.0, 0.0, 3.0), (0.0, 0.0, 0.0))
+    mesh = scene.add_mesh(np.array([[-9, -9, 0], [9, -9, 0], [9, 9, 0], [-9, 9, 0]], "f4"), np.array([[0, 1, 2], [0, 2, 3]], "i4"))
+    scene.add_instance(mesh, [scene.put_material({"origin": "wall", "closures": [closure("Emission", emission_color=2.0)]})])
+    scene.put_atmosphere(medium(absorption=(0.1, 0.2, 0.4)))
+    found, _ = seen(scene, 16)
+    assert found == pytest.approx(2.0 * np.exp(-3.0 * np.array([0.1, 0.2, 0.4])), rel=1e-4)
+
+
+def test_a_medium_that_shines():
+    scene = looking((0.0, 0.0, 3.0), (0.0, 0.0, 0.0))
+    box(scene, (-9.0, -9.0, -2.0), (9.0, 9.0, 0.0), absorption=(0.5, 1e-5, 2.0), emission=3.0)
+    found, _ = seen(scene, 4)
+    depths = 2.0 * np.array([0.5, 1e-5, 2.0])
+    assert found == pytest.approx(3.0 * 2.0 * -np.expm1(-depths) / depths, rel=1e-3)
+
+
+def test_haze_by_visibility():
+    assert haze(100.0)["scattering"] == pytest.approx([2.9957 / 100.0] * 3, rel=1e-4)
+    assert haze(100.0, contrast=0.02, albedo=0.5)["absorption"] == pytest.approx([3.912 / 200.0] * 3, rel=1e-4)
+    for wrong in ({"visibility": 0.0}, {"visibility": math.nan}, {"visibility": 1.0, "contrast": 1.0}, {"visibility": 1.0, "albedo": 2.0}):
+        with pytest.raises(ValueError, match="expected"):
+            haze(**wrong)
+
+
+@pytest.mark.parametrize("anisotropy", [0.0, 0.7])
+def test_a_ball_of_fog_keeps_the_flux_of_its_lamp(anisotropy):
+    scene = gonio.Scene()
+    scene.add_light("point")
+    box(scene, (-1.0, -1.0, -1.0), (1.0, 1.0, 1.0), scattering=3.0, anisotropy=anisotropy)
+    reading = gonio.goniometer(scene, rays=200_000)
+    assert reading.light_output_ratio.value == pytest.approx(1.0, abs=1e-3)
