@@ -16,6 +16,7 @@ pub mod explain;
 pub mod frame_name;
 pub mod framing;
 mod goniogram;
+mod haze;
 pub mod instancer;
 mod kept;
 pub mod light;

@@ -152,6 +152,8 @@ pub struct StageOptions {
     pub disable_draw_mode: bool,
     /// Whether the camera does not see the shapes of lamps, whatever the render settings say.
     pub hide_lights: bool,
+    /// Visibility of haze that fills all of space, metres, whatever the stage says; `None` leaves it to the stage.
+    pub haze: Option<f64>,
     /// Whether a pass of motion vectors is asked for: where nothing is blurred, things are then read at the frames before and after too.
     pub motion_vectors: bool,
     /// Whether warnings end the reading.
@@ -180,6 +182,7 @@ impl Default for StageOptions {
             disable_motion_blur: false,
             disable_draw_mode: false,
             hide_lights: false,
+            haze: None,
             motion_vectors: false,
             strict: false,
             lenient: true,

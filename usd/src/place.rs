@@ -9,7 +9,7 @@ use crate::model::{Element, Group, Inherited, Kind, Model, Shape};
 use crate::options::Purpose;
 use crate::roles::Role;
 use crate::view::shines;
-use crate::{camera, daylight, light, light_filter, material, mesh_light, meter, primvar};
+use crate::{camera, daylight, haze, light, light_filter, material, mesh_light, meter, primvar};
 use gonio::scene::{
     Geometry, GridArea, Instances, Light, MaterialId, MeshId, Origin, Primvar, PrimvarInterpolation, Scene, Transform, Visibility,
 };
@@ -314,6 +314,9 @@ impl<'py> Placer<'_, '_, 'py> {
         let path = placement.path(&element.path);
         let role = self.role(element, placement);
         let Some(prim) = self.context.prim_at(&path).filter(|_| role.rendered) else { return };
+        if haze::is_haze(&prim) {
+            haze::fill(self.context, &prim);
+        }
         let first = self.context.scene.lights.len();
         let filters = light_filter::read(self.context, &prim);
         for transform in self.transforms(element, placement) {

@@ -22,7 +22,7 @@ use crate::settings;
 use crate::traverse::Walker;
 use crate::watch::Reading;
 use crate::{material, motion, place, pxr, render_pass, skeleton};
-use gonio::scene::Scene;
+use gonio::scene::{HAZE_ANISOTROPY, Medium, Scene, VISIBILITY_CONTRAST};
 use gonio::{Diagnostic, Error, Result, Severity};
 use info::read_info;
 use open::{Prepared, check_file, open_prepared};
@@ -260,6 +260,10 @@ impl Stage {
         let waited_for_meshes = context.waited_for_meshes;
         let (mut scene, of_world) = context.finish();
         diagnostics.extend(of_world);
+        if let Some(visibility) = options.haze {
+            let extinction = Medium::extinction_of(visibility, VISIBILITY_CONTRAST);
+            scene.atmosphere = Medium::haze(extinction, [1.0; 3], HAZE_ANISOTROPY);
+        }
         let wanted = settings.as_ref().and_then(|settings| settings.framing.camera.clone()).or_else(|| info.default_camera.clone());
         let camera = wanted.and_then(|path| scene.cameras.iter().position(|camera| *camera.origin.name == *path));
         scene.settings.camera = camera.unwrap_or(0) as u32;

@@ -13,7 +13,7 @@ use crate::options::{Purpose, Standing};
 use crate::prim::Prim;
 use crate::pxr::Module;
 use crate::xform::Xforms;
-use crate::{daylight, mesh, meter, nurbs_patch, primvar, tet_mesh};
+use crate::{daylight, haze, mesh, meter, nurbs_patch, primvar, tet_mesh};
 use gonio::Result;
 use gonio::scene::{MeshId, Origin, Transform};
 use kind::PrimKind;
@@ -248,7 +248,7 @@ impl<'w, 'a, 'py> Walker<'w, 'a, 'py> {
             PrimKind::Light => push(model, prim, branch, Kind::Light),
             PrimKind::Camera => push(model, prim, branch, Kind::Camera),
             PrimKind::Container => {
-                if daylight::is_daylight(prim) {
+                if daylight::is_daylight(prim) || haze::is_haze(prim) {
                     push(model, prim, branch, Kind::Light);
                 }
                 if meter::is_measured(prim) {

@@ -203,6 +203,7 @@ pub(super) fn stage_options(arguments: &StageArguments) -> Result<StageOptions> 
         disable_motion_blur: arguments.disable_motion_blur,
         disable_draw_mode: arguments.disable_draw_mode,
         hide_lights: arguments.hide_lights,
+        haze: arguments.haze,
         strict: arguments.strict,
         lenient: arguments.lenient,
         ..StageOptions::default()

@@ -15,9 +15,10 @@ use pyo3::prelude::*;
 use std::{path::PathBuf, sync::atomic::AtomicBool};
 
 /// Reads a USD stage; `scene.diagnostics` tells what is not as the stage asked for. `motion_vectors`: for the pass `motion`, things are read at the
-/// frames before and after too, where nothing is blurred. `hide_lights`: the camera does not see the shapes of lamps.
+/// frames before and after too, where nothing is blurred. `hide_lights`: the camera does not see the shapes of lamps. `haze`: metres at
+/// which contrast falls to 5 % in haze that fills all of space.
 #[pyfunction]
-#[pyo3(signature = (path, *, frame = None, camera = None, render_settings = None, render_pass = None, purposes = None, complexity = "high", camera_light = true, strict = false, motion_vectors = false, hide_lights = false))]
+#[pyo3(signature = (path, *, frame = None, camera = None, render_settings = None, render_pass = None, purposes = None, complexity = "high", camera_light = true, strict = false, motion_vectors = false, hide_lights = false, haze = None))]
 #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
 pub(crate) fn load_usd<'py>(
     py: Python<'py>,
@@ -32,8 +33,9 @@ pub(crate) fn load_usd<'py>(
     strict: bool,
     motion_vectors: bool,
     hide_lights: bool,
+    haze: Option<f64>,
 ) -> PyResult<Bound<'py, Scene>> {
-    let mut options = StageOptions { strict, render_settings, render_pass, motion_vectors, hide_lights, ..StageOptions::default() };
+    let mut options = StageOptions { strict, render_settings, render_pass, motion_vectors, hide_lights, haze, ..StageOptions::default() };
     options.time = frame.map_or(SampleTime::Start, SampleTime::Code);
     options.complexity = Complexity::from_name(complexity)
         .ok_or_else(|| setting("complexity", format!("'{complexity}' was found, expected low, medium, high, veryhigh or auto")))?;

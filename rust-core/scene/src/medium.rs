@@ -16,7 +16,22 @@ pub struct Medium {
     pub anisotropy: f32,
 }
 
+/// The contrast that a black thing before the sky keeps at the visibility: the meteorological optical range of CIE and WMO.
+pub const VISIBILITY_CONTRAST: f64 = 0.05;
+/// How haze scatters where nobody says: droplets and dust, forwards.
+pub const HAZE_ANISOTROPY: f32 = 0.8;
+
 impl Medium {
+    /// Haze or fog of an extinction a metre, of which a part, R, G, B, is scattered.
+    pub fn haze(extinction: f64, albedo: [f32; 3], anisotropy: f32) -> Self {
+        let scattering = albedo.map(|part| (extinction * f64::from(part)) as f32);
+        let absorption = albedo.map(|part| (extinction * (1.0 - f64::from(part))) as f32);
+        Self { absorption, scattering, emission: [0.0; 3], anisotropy }
+    }
+    /// The extinction a metre at which contrast falls to a part after so many metres (Koschmieder).
+    pub fn extinction_of(visibility: f64, contrast: f64) -> f64 {
+        -contrast.ln() / visibility
+    }
     /// Whether light goes through as if nothing were there.
     pub fn is_clear(&self) -> bool {
         [self.absorption, self.scattering, self.emission].iter().flatten().all(|x| *x == 0.0)

@@ -86,7 +86,7 @@ def test_materials_without_a_surface_inside_are_told(tmp_path):
     )  # fmt: skip
     found, told = colours(tmp_path, text, "C", strict=False)
     assert found[0] == pytest.approx([1, 0, 0], abs=1e-4)
-    assert sum("stands inside itself" in message for message in told) == 1 and sum("<volumematerial> 'B'" in message for message in told) == 1, told
+    assert sum("stands inside itself" in message for message in told) == 1 and sum("'B' has no volume shader" in message for message in told) == 1, told
 
 
 DECAL = (

@@ -3,7 +3,8 @@
 use super::network::Network;
 use super::neutral::NodeIndex;
 use super::outputs::{output_name, render_contexts};
-use super::{displaced, from_usd, surface};
+use super::surface::straight;
+use super::{displaced, from_usd, surface, volume};
 use crate::context::Context;
 use crate::prim::Prim;
 use crate::pxr::Module;
@@ -20,6 +21,7 @@ pub(super) fn convert<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, pat
     for end in dangling {
         context.warn(&origin, format!("its surface is connected to {end}"));
     }
+    let medium = volume::read(context, prim);
     let mut unknown = Vec::new();
     for (render_context, surface) in surfaces {
         let document = from_usd::read(surface, &context.time);
@@ -28,11 +30,15 @@ pub(super) fn convert<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, pat
         if let Some(closures) = surface::convert(&mut network, &shader) {
             let mut graph = network.graph;
             let displacement = displaced::read(context, prim, &mut graph);
-            return Some(Material { origin, closures, graph, displacement, ..Material::default() });
+            return Some(Material { origin, closures, graph, displacement, medium: medium.unwrap_or_default(), ..Material::default() });
         }
         let name = if shader.id.is_empty() { format!("<{}> without a name", shader.path) } else { format!("'{}'", shader.id) };
         let place = if render_context.is_empty() { String::new() } else { format!(" (render context {render_context})") };
         unknown.push(name + &place);
+    }
+    if let (Some(medium), true) = (medium, unknown.is_empty()) {
+        // Rays pass what is a volume alone.
+        return Some(Material { medium, ..Material::of(origin, straight(Input::Constant([1.0; 4]))) });
     }
     let found = match unknown.as_slice() {
         [] => "the material has no surface in any render context".to_owned(),

@@ -31,6 +31,7 @@ mod textures;
 mod usd_nodes;
 mod value;
 mod varying;
+mod volume;
 mod xml;
 
 pub use asked::Shaded;

@@ -31,6 +31,12 @@ pub(crate) fn finite<T: FromStr + Display + Into<f64> + Copy>(text: &str) -> Res
     value.ok_or_else(|| format!("'{text}' was found, expected a number"))
 }
 
+/// Reads a number that is finite and above 0.
+pub(crate) fn positive<T: FromStr + Display + Into<f64> + Copy>(text: &str) -> Result<T, String> {
+    let value = finite::<T>(text)?;
+    if value.into() > 0.0 { Ok(value) } else { Err(format!("'{text}' was found, expected a number above 0")) }
+}
+
 /// Reads an amount of memory, bytes: `512M`, `4G`; digits alone are mebibytes.
 pub(crate) fn mebibytes(text: &str) -> Result<u64, String> {
     match text.trim().parse::<u64>() {

@@ -1,5 +1,6 @@
 //! What of a stage is read.
 
+use super::number::positive;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -38,6 +39,10 @@ pub(crate) struct StageArguments {
     /// The camera does not see the shapes of lamps (suns and domes stay): they light, and stand in mirrors, as ever.
     #[arg(long = "hide-lights")]
     pub(crate) hide_lights: bool,
+    /// Fill all of space with haze or fog in which a black thing before the sky keeps 5 % of its contrast after so many metres (the meteorological optical
+    /// range of CIE and WMO); lights at infinity do not shine through it.
+    #[arg(long, value_name = "METRES", value_parser = positive::<f64>)]
+    pub(crate) haze: Option<f64>,
     /// Go on where a light's IES or EULUMDAT file is missing or cannot be read, with a warning: by its quantity's even light, else dark.
     #[arg(long, conflicts_with = "strict")]
     pub(crate) lenient: bool,

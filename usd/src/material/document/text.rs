@@ -38,7 +38,7 @@ pub(super) fn convert(text: &str, file: &Path, standard: Option<&Library>) -> Re
     let mut materials = String::new();
     for child in &document.children {
         match child.name.as_str() {
-            "surfacematerial" => materials += &material(child, stated, &libraries, &mut problems),
+            "surfacematerial" | "volumematerial" => materials += &material(child, stated, &libraries, &mut problems),
             "material" => {
                 problems.push(format!("<{}> in MaterialX documents is not supported, it is left out", child.name));
             }
@@ -75,22 +75,31 @@ fn quoted(text: &str) -> String {
     result + "\""
 }
 
-/// A material prim with the shaders that it reads; empty, with a problem, where it has no surface.
+/// What materials read, by MaterialX's and by USD's names.
+const TERMINALS: [(&str, &str); 3] = [("surfaceshader", "surface"), ("volumeshader", "volume"), ("displacementshader", "displacement")];
+
+/// A material prim with the shaders that it reads; empty, with a problem, where it has neither a surface nor a volume.
 fn material(material: &Element, stated: Stated<'_>, libraries: &[&Library], problems: &mut Vec<String>) -> String {
     let name = identifier(material.attribute("name").unwrap_or("material"));
-    let Some((document, output)) = mtlx::read(stated, material, "surfaceshader", libraries) else {
-        problems.push(format!("the material '{name}' has no surface shader"));
-        return String::new();
-    };
     let root = format!("/MaterialX/Materials/{name}");
-    let mut shaders: String = document.nodes.iter().map(|node| shader(&root, node, &document, problems)).collect();
-    let mut terminals = terminal(&root, "surface", &document.nodes[0], &output);
-    if let Some((displacing, output)) = mtlx::read(stated, material, "displacementshader", libraries) {
-        // Nodes that both read are there already.
-        let known: HashSet<&str> = document.nodes.iter().map(|node| &*node.path).collect();
-        let others = displacing.nodes.iter().filter(|node| !known.contains(&*node.path));
-        shaders.extend(others.map(|node| shader(&root, node, &displacing, problems)));
-        terminals += &terminal(&root, "displacement", &displacing.nodes[0], &output);
+    let (mut terminals, mut shaders, mut known) = (String::new(), String::new(), HashSet::new());
+    for (input, kind) in TERMINALS {
+        let Some((document, output)) = mtlx::read(stated, material, input, libraries) else { continue };
+        if kind == "displacement" && terminals.is_empty() {
+            continue;
+        }
+        // Nodes that several read are there once.
+        for node in &document.nodes {
+            if known.insert(node.path.clone()) {
+                shaders += &shader(&root, node, &document, problems);
+            }
+        }
+        terminals += &terminal(&root, kind, &document.nodes[0], &output);
+    }
+    if terminals.is_empty() {
+        let missing = if material.name == "volumematerial" { "volume" } else { "surface" };
+        problems.push(format!("the material '{name}' has no {missing} shader"));
+        return String::new();
     }
     format!("def Material \"{name}\"\n{{\n{terminals}{shaders}}}\n")
 }
@@ -123,7 +132,7 @@ fn defined_material(element: &Element, stated: Stated<'_>, libraries: &[&Library
         }
     };
     let mut terminals = String::new();
-    for (input, kind) in [("surfaceshader", "surface"), ("displacementshader", "displacement")] {
+    for (input, kind) in TERMINALS {
         if let Source::Output(end, output) = document.node(innermost).source(input) {
             terminals += &terminal(&root, kind, document.node(end), &output);
         }

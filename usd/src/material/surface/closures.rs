@@ -24,7 +24,7 @@ pub(super) fn convert(network: &mut Network<'_>, shader: &Shader) -> Option<Vec<
 }
 
 /// The shader that an input is connected to.
-pub(super) fn behind(network: &mut Network<'_>, shader: &Shader, input: &str) -> Option<Shader> {
+pub(in crate::material) fn behind(network: &mut Network<'_>, shader: &Shader, input: &str) -> Option<Shader> {
     match network.source(shader, input) {
         Source::Output(node, _) => Some(network.shader(node)),
         _ => None,
@@ -80,7 +80,7 @@ fn unlit(network: &mut Network<'_>, shader: &Shader) -> Vec<Closure> {
 }
 
 /// Radiance of an emission distribution.
-fn emission(network: &mut Network<'_>, shader: &Shader) -> Input {
+pub(in crate::material) fn emission(network: &mut Network<'_>, shader: &Shader) -> Input {
     let inner = |network: &mut Network<'_>, input: &str| {
         let part = behind(network, shader, input).and_then(|part| network.within(&part, |network| emission(network, &part)));
         part.unwrap_or(scalar(0.0))
@@ -117,6 +117,11 @@ fn emission(network: &mut Network<'_>, shader: &Shader) -> Input {
             }
         },
     }
+}
+
+/// The node of a definition's name, see [`split`].
+pub(in crate::material) fn node_name(id: &str) -> &str {
+    split(id).0
 }
 
 /// `ND_mix_bsdf` is `mix`, `ND_sheen_bsdf` is `sheen_bsdf`.

@@ -2,6 +2,7 @@
 
 use super::lobes::direction;
 use super::parts::cut_by;
+use super::solid;
 use crate::material::emit::{component, constant_scalar, is_constant, luminance, multiply, scalar};
 use crate::material::network::{Network, Shader};
 use gonio::scene::{Closure, Input, Model, NodeId, Operation};
@@ -49,6 +50,19 @@ impl Surface<'_, '_> {
     fn length(&mut self, parameter: &str, input: Input) {
         let metres = scalar(self.network.host.metres_per_unit() as f32);
         self.product(parameter, input, metres);
+    }
+    /// What scatters under the surface, over the depth by which it absorbs.
+    fn scattering(&mut self, anisotropy: &str) {
+        let scatter = self.colour("transmission_scatter", [0.0; 3]);
+        let depth = self.closure.input("transmission_depth");
+        if is_constant(scatter, 0.0) || depth.is_none_or(|depth| is_constant(depth, 0.0)) {
+            return;
+        }
+        let cosine = self.network.number(self.shader, anisotropy, 0.0);
+        match solid::scattering(&self.closure, scatter, cosine) {
+            Some(medium) => self.closure.solid = medium,
+            None => self.network.unsupported(&format!("input 'transmission_scatter' that varies, of {}", self.shader.id), self.shader),
+        }
     }
     /// Says by name which inputs are left out although they are not at the value that means off.
     fn left_out(&mut self, inputs: &[(&str, f32)]) {
@@ -128,7 +142,8 @@ fn open_pbr_surface(surface: &mut Surface<'_, '_>) {
     surface.product("emission_color", emission, luminance);
     surface.closure.thin_walled = surface.network.number(surface.shader, "geometry_thin_walled", 0.0) != 0.0;
     surface.closure.normal = surface.direction("geometry_normal");
-    surface.left_out(&[("transmission_scatter", 0.0), ("transmission_dispersion_scale", 0.0), ("coat_roughness_anisotropy", 0.0)]);
+    surface.scattering("transmission_scatter_anisotropy");
+    surface.left_out(&[("transmission_dispersion_scale", 0.0), ("coat_roughness_anisotropy", 0.0)]);
     surface.closure.coat_normal = surface.direction("geometry_coat_normal");
     surface.closure.tangent = surface.direction("geometry_tangent");
 }
@@ -194,7 +209,8 @@ fn fill_standard_surface(surface: &mut Surface<'_, '_>, base_weight: f32, base_c
     surface.closure.set_input("geometry_opacity", opacity);
     surface.closure.thin_walled = surface.network.number(surface.shader, "thin_walled", 0.0) != 0.0;
     surface.closure.normal = surface.direction("normal");
-    surface.left_out(&[("transmission_scatter", 0.0), ("transmission_dispersion", 0.0), ("coat_anisotropy", 0.0)]);
+    surface.scattering("transmission_scatter_anisotropy");
+    surface.left_out(&[("transmission_dispersion", 0.0), ("coat_anisotropy", 0.0)]);
     surface.closure.coat_normal = surface.direction("coat_normal");
     surface.closure.tangent = surface.direction("tangent");
 }

@@ -12,6 +12,10 @@ mod omniverse;
 mod parts;
 mod preview_surface;
 mod realitykit;
+mod solid;
+
+pub(super) use closures::{behind, emission, node_name};
+pub(super) use parts::straight;
 
 use super::network::{Network, Shader};
 use gonio::scene::Closure;

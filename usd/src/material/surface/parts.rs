@@ -15,7 +15,7 @@ pub(super) fn shining(radiance: Input) -> Closure {
 }
 
 /// Light that goes straight through.
-pub(super) fn straight(weight: Input) -> Closure {
+pub(in crate::material) fn straight(weight: Input) -> Closure {
     let mut closure = Closure { model: Model::Transparent, weight, ..Closure::default() };
     closure.set_input("base_color", colour([1.0; 3]));
     closure
