@@ -6,6 +6,7 @@
 //! [`LightTable::eval_hit`] and [`LightTable::eval_escaped`] give the light that a BSDF's ray found, and its density or weight for MIS (multiple
 //! importance sampling). [`EmissionSampler::sample`] draws a ray that a light sends, for light paths. Formulas are UsdLux's, in cd/m².
 
+mod along;
 mod beam;
 mod blackbody;
 mod build;
@@ -54,6 +55,7 @@ mod vector;
 #[cfg(test)]
 mod tests;
 
+pub use along::{LightAlong, LightWay};
 pub use blackbody::blackbody_rgb;
 pub use context::LightSampleContext;
 pub use emit::{AIMED, EmissionSampler, EmittedRay};

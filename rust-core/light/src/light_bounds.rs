@@ -2,6 +2,7 @@
 //!
 //! pbrt calls it `LightBounds` as well (Physically Based Rendering, 4th edition, section 12.6.3).
 
+use super::along::LightWay;
 use super::light_kind::LightKind;
 use super::row::{Reader, field, flag};
 use gonio_simd::{F, Lanes, M, U, Vec3};
@@ -89,6 +90,71 @@ impl<L: Lanes> LightBounds<L> {
         let from_near = (lifted(l, n, receiver) * emitter * self.gain / widening).keep_if(in_cone & in_beam);
         (self.strength * far.select(from_far, from_near)).min(1e30)
     }
+
+    /// Importance for a whole way: about the illuminance integrated along it, zero only where none of the light can arrive.
+    #[inline(always)]
+    pub(super) fn importance_along(&self, l: L, way: &LightWay<L>) -> F<L> {
+        let (_, [from, to]) = self.reached(l, way);
+        let far = self.is(flag::INFINITE);
+        let part = LightWay { origin: way.place(from), direction: way.direction, length: (to - from).max(0.0) };
+        let near = self.gain * part.nearness(self.centre, self.radius);
+        (self.strength * far.select(part.length, near)).min(1e30).keep_if(to.gt(from))
+    }
+
+    /// The light's middle, and the metres of a way between which its light may arrive.
+    #[inline(always)]
+    pub(super) fn reached(&self, l: L, way: &LightWay<L>) -> (Vec3<L>, [F<L>; 2]) {
+        let (mut from, mut to) = (l.f(0.0), way.length);
+        let near = !self.is(flag::INFINITE);
+        // Flat lights shine to one side.
+        let flat = near & self.is(flag::FLAT) & !self.is(flag::TWO_SIDED);
+        if flat.any() {
+            let rise = self.normal.dot(way.direction);
+            let height = self.normal.dot(way.origin - self.centre);
+            let crossing = -height / rise.abs().max(1e-12).copysign(rise);
+            from = (flat & rise.gt(0.0)).select(from.max(crossing), from);
+            to = (flat & rise.lt(0.0)).select(to.min(crossing), to);
+            to = (flat & rise.eq(0.0) & height.lt(0.0)).select(from, to);
+        }
+        // A cone about the axis; one with its apex behind holds what the light's extent adds.
+        let coned = near & self.cone_cosine.gt(LEAST_CONE);
+        if coned.any() {
+            let cosine = self.cone_cosine.clamp(LEAST_CONE, 1.0) * (1.0 - 1e-5);
+            let sine = (1.0 - cosine * cosine).safe_sqrt();
+            let apex = self.centre - self.axis * ((self.radius + 1e-4) / sine.max(1e-4));
+            let [first, last] = within_cone(way, apex, self.axis, cosine);
+            from = coned.select(from.max(first), from);
+            to = coned.select(to.min(last), to);
+        }
+        (near.select(self.centre, Vec3::splat(l, [1e20; 3])), [from, to])
+    }
+}
+
+/// Cones are narrower than half of space from this cosine on.
+const LEAST_CONE: f32 = 0.05;
+
+/// Between which metres of a way it is within a cone; the second is the smaller where it is not.
+#[inline(always)]
+fn within_cone<L: Lanes>(way: &LightWay<L>, apex: Vec3<L>, axis: Vec3<L>, cosine: F<L>) -> [F<L>; 2] {
+    let l = cosine.lanes();
+    let to = way.origin - apex;
+    let (along, begun, squared) = (axis.dot(way.direction), axis.dot(to), cosine * cosine);
+    let a = along * along - squared;
+    let b = along * begun - squared * to.dot(way.direction);
+    let c = begun * begun - squared * to.length_squared();
+    let root = (b * b - a * c).safe_sqrt();
+    let safe = a.abs().max(1e-12).copysign(a);
+    let [one, other] = [(-b - root) / safe, (-b + root) / safe];
+    let (low, high) = (one.min(other), one.max(other));
+    let (none, whole) = ([l.f(1.0), l.f(0.0)], [l.f(f32::MIN), l.f(f32::MAX)]);
+    // Steeper than the cone, a way crosses it between the roots, in this half or in the other; else it stays in from a root on.
+    let crosses = a.lt(0.0);
+    let ahead = along.mul_add((low + high) * 0.5, begun).gt(0.0);
+    let met = (b * b - a * c).gt(0.0);
+    let inward = along.gt(0.0);
+    let first = crosses.select((met & ahead).select(low, none[0]), inward.select(high, whole[0]));
+    let last = crosses.select((met & ahead).select(high, none[1]), inward.select(whole[1], low));
+    [first, last]
 }
 
 /// A cosine at the receiver of normal `n` as far as it is trusted, 1 where there is no surface.

@@ -55,14 +55,12 @@ pub mod dimension {
     pub const PHASE: u32 = 1;
     /// Which of several media scatters, and Russian roulette.
     pub const PHASE_CHOICE: u32 = 2;
-    /// The place from which a light is selected.
-    pub const MEDIUM_LOOK: u32 = 3;
     /// Choice of the light, and the component of light by which the place to be lit is drawn.
-    pub const MEDIUM_LIGHT_CHOICE: u32 = 4;
+    pub const MEDIUM_LIGHT_CHOICE: u32 = 3;
     /// Point of the light that the place is drawn towards.
-    pub const MEDIUM_POINT: u32 = 5;
+    pub const MEDIUM_POINT: u32 = 4;
     /// Way of drawing that place, and the place.
-    pub const MEDIUM_PLACE: u32 = 6;
+    pub const MEDIUM_PLACE: u32 = 5;
     /// Point of the light that lights it.
-    pub const MEDIUM_LIGHT: u32 = 7;
+    pub const MEDIUM_LIGHT: u32 = 6;
 }

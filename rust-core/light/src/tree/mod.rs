@@ -4,6 +4,7 @@
 //! Dozens of sets at the top are weighed for all lanes alike, without gathers; below, nodes have up to eight children. Infinite lights have no
 //! place in the tree: their importances stand beside the top's.
 
+mod along;
 mod bound;
 mod build;
 mod learn;

@@ -1,6 +1,7 @@
 //! A node of the light tree in eight words, and the importance of its lights at a point, on lanes.
 
 use super::bound::{Bound, Cone};
+use crate::along::LightWay;
 use crate::light_bounds::{EMITTER_FLOOR, lifted};
 use crate::vector::narrow;
 use gonio_simd::{F, Lanes, M, One, U, Vec3};
@@ -179,6 +180,12 @@ impl<L: Lanes> Node<L> {
         // One light comes no nearer than its own size; of several, some are farther than their middle.
         let widening = self.below.is_leaf().select(squared.max(scatter), squared + scatter);
         (self.strength * lifted(l, n, receiver) * emitter / widening.max(f32::MIN_POSITIVE)).min(1e30)
+    }
+    /// Importance for a whole way: about the illuminance integrated along it, never zero.
+    #[inline(always)]
+    pub(super) fn importance_along(&self, way: &LightWay<L>) -> F<L> {
+        let size = self.half.length();
+        (self.strength * way.nearness(self.centre, size * 0.5)).min(1e30)
     }
     /// From the point to the box, along each axis.
     #[inline(always)]

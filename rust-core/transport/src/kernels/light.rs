@@ -1,7 +1,7 @@
 //! Lights chosen and sampled at random.
 
 use crate::tables::Tables;
-use gonio_light::{LightCache, LightSample, LightSampleContext};
+use gonio_light::{LightAlong, LightCache, LightSample, LightSampleContext, LightWay};
 use gonio_simd::{F, Lanes, U};
 
 /// [`gonio_light::LightTable::sample_li`].
@@ -19,18 +19,12 @@ pub fn sample_li<L: Lanes>(
     )
 }
 
-/// [`gonio_light::LightTable::sample_light`].
+/// [`gonio_light::LightTable::sample_along`].
 #[inline(never)]
-pub(crate) fn sample_light<L: Lanes>(
-    l: L,
-    tables: &Tables,
-    light_cache: Option<&LightCache>,
-    from: &LightSampleContext<L>,
-    u: F<L>,
-) -> (U<L>, F<L>) {
+pub(crate) fn sample_along<L: Lanes>(l: L, tables: &Tables, way: &LightWay<L>, u: F<L>) -> LightAlong<L> {
     l.vectorize(
         #[inline(always)]
-        || tables.lights.sample_light(l, light_cache, from, u),
+        || tables.lights.sample_along(l, way, u),
     )
 }
 

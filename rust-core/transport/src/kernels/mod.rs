@@ -18,6 +18,6 @@ pub use bsdf::sample;
 pub(crate) use bsdf::{emitted, eval, eval_diffuse, flux, flux_diffuse, flux_factor, sample_or_follow, specular_rays, transmittance};
 pub(crate) use fixed_light::sample_fixed;
 pub use light::sample_li;
-pub(crate) use light::{light_pmf, sample_li_of, sample_light};
+pub(crate) use light::{light_pmf, sample_along, sample_li_of};
 pub(crate) use light_hit::{LightHit, eval_escaped, eval_light};
 pub(crate) use surface::{evaluate, evaluate_on, lift, run_program, surface_points};

@@ -1,6 +1,7 @@
 //! Next event estimation in media: a light is sampled for one place of each way.
 //!
-//! The place is drawn by distance or towards a point of the light (equiangular sampling), by the balance heuristic over both. Kulla and Fajardo,
+//! The place is drawn by distance or towards a point of the light (equiangular sampling), by the balance heuristic over both, where the light reaches
+//! the way. Kulla and Fajardo,
 //! Importance Sampling Techniques for Path Tracing in Participating Media (2012).
 
 use super::MediumContext;
@@ -14,7 +15,7 @@ use crate::state::queue::shadow_rays::{Along, ShadowLanes, ShadowRays};
 use crate::state::vertex::Interaction;
 use crate::words::event;
 use gonio_camera::sampler::dimension;
-use gonio_light::{LightSampleContext, power_heuristic};
+use gonio_light::{LightAlong, LightSampleContext, LightWay, power_heuristic};
 use gonio_simd::{F, Frame, Lanes, M, Spectrum, U, Vec3};
 
 /// Optical depths below this are drawn from evenly.
@@ -24,38 +25,42 @@ const FAR: f32 = 1e9;
 /// Part of the places that are drawn towards the light, where it lies at a point.
 const EQUIANGULAR: f32 = 0.5;
 
-/// The density of places along each way by distance, and places drawn from it.
+/// The part of a way that the light reaches: metres from where that begins.
 #[derive(Clone, Copy, Debug)]
-struct ByDistance<L: Lanes> {
-    /// Probabilities of the components of light.
+struct Part<L: Lanes> {
+    way: LightWay<L>,
+    /// Probabilities of the components of light, and extinctions.
     channels: Spectrum<L>,
     extinction: Spectrum<L>,
-    length: F<L>,
 }
 
-impl<L: Lanes> ByDistance<L> {
-    /// The share of a way's light that each component loses on it.
+impl<L: Lanes> Part<L> {
+    /// The share of light that a component loses on it.
     #[inline(always)]
     fn lost(&self, extinction: F<L>) -> F<L> {
-        1.0 - (-(extinction * self.length)).exp()
+        1.0 - (-(extinction * self.way.length)).exp()
     }
 
+    /// Draws a place by distance.
     #[inline(always)]
     fn draw(&self, u: [F<L>; 2]) -> F<L> {
+        let length = self.way.length;
         let extinction = self.channels.choose(u[0], self.extinction);
-        let thin = (extinction * self.length).lt(THIN);
+        let thin = (extinction * length).lt(THIN);
         let thick = -(1.0 - u[1] * self.lost(extinction)).max(f32::MIN_POSITIVE).ln() / extinction.max(f32::MIN_POSITIVE);
-        thin.select(u[1] * self.length, thick).min(self.length)
+        thin.select(u[1] * length, thick).min(length)
     }
 
+    /// The density of that, a metre.
     #[inline(always)]
     fn density(&self, distance: F<L>) -> F<L> {
+        let length = self.way.length;
         let density = self.extinction.map(
             #[inline(always)]
             |extinction| {
-                let thin = (extinction * self.length).lt(THIN);
+                let thin = (extinction * length).lt(THIN);
                 let thick = extinction * (-(extinction * distance)).exp() / self.lost(extinction).max(f32::MIN_POSITIVE);
-                thin.select(self.length.max(f32::MIN_POSITIVE).recip(), thick)
+                thin.select(length.max(f32::MIN_POSITIVE).recip(), thick)
             },
         );
         self.channels.dot(density)
@@ -65,17 +70,17 @@ impl<L: Lanes> ByDistance<L> {
 /// The density of places by the angle that a point of the light sees them under.
 #[derive(Clone, Copy, Debug)]
 struct ByAngle<L: Lanes> {
-    /// Metres from the beginning of the way to what is nearest to the point, and from there to the point.
+    /// Metres from the beginning of the part to what is nearest to the point, and from there to the point.
     nearest: F<L>,
     apart: F<L>,
-    /// Angles of the way's ends.
+    /// Angles of the part's ends.
     angles: [F<L>; 2],
 }
 
 impl<L: Lanes> ByAngle<L> {
     #[inline(always)]
-    fn new(way: &Way<L>, point: Vec3<L>) -> Self {
-        let to = point - way.place(way.pdf.lanes().f(0.0));
+    fn new(way: &LightWay<L>, point: Vec3<L>) -> Self {
+        let to = point - way.origin;
         let nearest = to.dot(way.direction);
         let apart = (to - way.direction * nearest).length().max(1e-6);
         Self { nearest, apart, angles: [(-nearest).atan2(apart), (way.length - nearest).atan2(apart)] }
@@ -99,8 +104,9 @@ impl<L: Lanes> ByAngle<L> {
 /// A place of each way to be lit.
 #[derive(Clone, Copy, Debug)]
 struct Place<L: Lanes> {
+    /// Metres from the way's beginning.
     distance: F<L>,
-    /// A metre.
+    /// A metre; 0 where no light arrives.
     pdf: F<L>,
     /// The light, and the probability with which it was selected.
     light: (U<L>, F<L>),
@@ -111,20 +117,25 @@ struct Place<L: Lanes> {
 fn place<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>) -> Place<L> {
     let (l, tables) = (way.pdf.lanes(), context.tables);
     let slot = way.core.slot;
-    let by_distance = ByDistance { channels: way.channels(), extinction: way.extinction, length: way.length };
-    let from = light_context(way.place(by_distance.draw(context.pair(l, slot, dimension::MEDIUM_LOOK))));
     let [u_light, u_channel] = context.pair(l, slot, dimension::MEDIUM_LIGHT_CHOICE);
-    let cache = context.transport.light_cache.as_deref();
-    let light = kernels::sample_light(l, tables, cache, &from, u_light);
-    let point = kernels::sample_li_of(l, tables, light, &from, &context.pair(l, slot, dimension::MEDIUM_POINT));
-    let near = point.pdf.gt(0.0) & point.distance.lt(FAR);
-    let by_angle = ByAngle::new(way, from.position + point.wi * point.distance.min(FAR));
+    let whole = LightWay { origin: way.place(l.f(0.0)), direction: way.direction, length: way.length };
+    let LightAlong { light, centre, reached: [from, to] } = kernels::sample_along(l, tables, &whole, u_light);
+    let reached = to.gt(from);
+    let part = LightWay { origin: whole.place(from), length: (to - from).max(0.0), ..whole };
+    let by_distance = Part { way: part, channels: way.channels(), extinction: way.extinction };
+    // The point of the light is looked for from where the way is nearest to its middle.
+    let nearest = part.place((centre - part.origin).dot(part.direction).clamp(0.0, part.length));
+    let point = kernels::sample_li_of(l, tables, light, &light_context(nearest), &context.pair(l, slot, dimension::MEDIUM_POINT));
+    let found = point.pdf.gt(0.0);
+    let near = centre.max_abs().lt(FAR) & (!found | point.distance.lt(FAR));
+    let aim = found.select(nearest + point.wi * point.distance.min(FAR), centre);
+    let by_angle = ByAngle::new(&part, aim);
     let [u_way, u] = context.pair(l, slot, dimension::MEDIUM_PLACE);
     let angular = near & u_way.lt(EQUIANGULAR);
-    let distance = angular.select(by_angle.draw(u, way.length), by_distance.draw([u_channel, u]));
+    let distance = angular.select(by_angle.draw(u, part.length), by_distance.draw([u_channel, u]));
     let drawn = by_distance.density(distance);
     let pdf = near.select(by_angle.density(distance).lerp(drawn, 1.0 - EQUIANGULAR), drawn);
-    Place { distance, pdf, light }
+    Place { distance: from + distance, pdf: pdf.keep_if(reached), light }
 }
 
 /// Samples a light for each chosen way and queues the shadow ray to it.
