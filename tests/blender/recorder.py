@@ -24,7 +24,7 @@ class Recorder:
     def __init__(self):
         self.meshes, self.instances, self.materials, self.textures, self.lights, self.cameras, self.measured = ([] for _ in range(7))
         self.curves, self.points = [], []
-        self.settings, self.calls = {}, []
+        self.settings, self.calls, self.atmosphere = {}, [], {}
 
     def _put(self, what, thing, index):
         things = getattr(self, what)
@@ -35,6 +35,10 @@ class Recorder:
         check(0 <= index < len(things), what, index, len(things))
         things[index] = thing
         return index
+
+    def put_atmosphere(self, description):
+        self.calls.append("atmosphere")
+        self.atmosphere = description
 
     def put_mesh(self, points, triangles, *, corners=None, faces=None, normals=None, primvars=None, slots=None, name="mesh", index=None):
         arrays = {"points": points, "triangles": triangles, "corners": corners, "faces": faces, "normals": normals, "slots": slots}

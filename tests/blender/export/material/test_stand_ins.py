@@ -86,12 +86,9 @@ def test_rays_pass_what_is_a_volume_alone(tmp_path):
         description, lines = translated(made)
         [closure] = description["closures"]
         assert closure["model"] == "Transparent" and constant(closure, "base_color")[:3] == [1.0] * 3
-        if kind == "VolumeAbsorption":
-            # Even absorption fills the inside.
-            assert not lines and description["absorption"] == pytest.approx([0.2] * 3)
-        else:
-            assert len(lines) == 1 and lines[0].endswith("Volume: not supported; the inside stays empty; without a surface, rays pass")
-            assert "absorption" not in description
+        absorption, scattering = {"VolumeAbsorption": (0.2, 0.0), "VolumeScatter": (0.0, 0.8), "VolumePrincipled": (0.5, 0.5)}[kind]
+        assert not lines and description["medium"]["absorption"] == pytest.approx([absorption] * 3)
+        assert description["medium"]["scattering"] == pytest.approx([scattering] * 3)
         # A mix that leads to nothing is no surface either.
         mix = tree.nodes.new("ShaderNodeMixShader")
         mix.inputs["Fac"].default_value = 0.0
@@ -237,7 +234,7 @@ def test_the_report_counts_nodes_that_are_exact(tmp_path):
 
 
 @pytest.mark.blender
-def test_even_absorption_is_what_volume_shaders_add_up_to(tmp_path):
+def test_an_even_medium_is_what_volume_shaders_add_up_to(tmp_path):
     from recorder import empty, material, translated
 
     empty()
@@ -250,15 +247,24 @@ def test_even_absorption_is_what_volume_shaders_add_up_to(tmp_path):
     tree.links.new(second.outputs[0], both.inputs[1])
     tree.links.new(both.outputs[0], end.inputs["Volume"])
     description, lines = translated(made)
-    assert description["absorption"] == pytest.approx([1.5, 1.5, 0.125]) and not lines
-    # What scatters is not even absorption, and what varies neither.
+    assert description["medium"]["absorption"] == pytest.approx([1.5, 1.5, 0.125]) and not lines
     second.inputs["Scatter Coefficients"].default_value = (0.1, 0.0, 0.0)
+    second.inputs["Emission Coefficients"].default_value = (0.0, 2.0, 0.0)
+    second.inputs["Anisotropy"].default_value = 0.25
     description, lines = translated(made)
-    assert "absorption" not in description and len(lines) == 1
+    assert description["medium"]["scattering"] == pytest.approx([0.1, 0, 0]) and not lines
+    assert description["medium"]["emission"] == pytest.approx([0, 2 * LUMENS_PER_WATT, 0])
+    assert description["medium"]["anisotropy"] == pytest.approx(0.25)
+    # Other phase functions have the same mean cosine.
+    second.phase = "RAYLEIGH"
+    description, lines = translated(made)
+    assert description["medium"]["anisotropy"] == 0 and len(lines) == 1 and "Henyey" in lines[0]
+    second.phase = "HENYEY_GREENSTEIN"
+    # What varies is no even medium.
     tree.links.new(first.outputs[0], end.inputs["Volume"])
     tree.links.new(tree.nodes.new("ShaderNodeTexNoise").outputs["Fac"], first.inputs["Density"])
     description, lines = translated(made)
-    assert "absorption" not in description and len(lines) == 1
+    assert "medium" not in description and len(lines) == 1
 
 
 @pytest.mark.blender

@@ -33,12 +33,14 @@ pub(super) fn add(medium: &Medium, origin: &Origin, table: &mut MediumTable, dia
 }
 
 fn held(medium: &Medium) -> Medium {
-    let coefficient = |x: f32| if x.is_finite() { x.max(0.0) } else { 0.0 };
+    let finite = |x: f32| if x.is_finite() { x } else { 0.0 };
+    let coefficient = |x: f32| finite(x).max(0.0);
     let anisotropy = if medium.anisotropy.is_finite() { medium.anisotropy.clamp(-MOST_ANISOTROPY, MOST_ANISOTROPY) } else { 0.0 };
     Medium {
         absorption: medium.absorption.map(coefficient),
         scattering: medium.scattering.map(coefficient),
-        emission: medium.emission.map(coefficient),
+        // Hues of fire lie outside of the colours of screens.
+        emission: medium.emission.map(finite),
         anisotropy,
     }
 }
