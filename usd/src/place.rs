@@ -316,6 +316,9 @@ impl<'py> Placer<'_, '_, 'py> {
         let Some(prim) = self.context.prim_at(&path).filter(|_| role.rendered) else { return };
         if haze::is_haze(&prim) {
             haze::fill(self.context, &prim);
+            if !daylight::is_daylight(&prim) && !light::is_light(&prim.type_name()) {
+                return;
+            }
         }
         let first = self.context.scene.lights.len();
         let filters = light_filter::read(self.context, &prim);

@@ -113,7 +113,7 @@ def test_a_lamp_and_a_camera_within(tmp_path):
     made = look()
     made.camera.location.z = 1.1
     made.camera.data.clip_start = 1e-3
-    cube(fog("Fog", "VolumeScatter", Color=(0.8, 0.8, 0.8, 1.0), Density=0.4, Anisotropy=0.3), (0, 0, 0.5), (9, 9, 3))
+    cube(fog("Fog", "VolumeScatter", Color=(0.8, 0.8, 0.8, 1.0), Density=0.4, Anisotropy=0.3), (0, 0, 0.6), (9, 9, 3))
     floor()
     lamp((1.0, -0.8, 0.4))
     alike(tmp_path)
