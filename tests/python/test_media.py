@@ -130,3 +130,20 @@ def test_a_ball_of_fog_keeps_the_flux_of_its_lamp(anisotropy):
     box(scene, (-1.0, -1.0, -1.0), (1.0, 1.0, 1.0), scattering=3.0, anisotropy=anisotropy)
     reading = gonio.goniometer(scene, rays=200_000)
     assert reading.light_output_ratio.value == pytest.approx(1.0, abs=1e-3)
+
+
+@pytest.mark.parametrize("box_first", [True, False])
+@pytest.mark.parametrize("touching", [True, False])
+def test_fog_that_stands_on_a_floor_is_before_it(box_first, touching):
+    scene = looking((0.3, 2.0, 0.0), (0.0, 0.0, 0.0))
+    bottom = 0.0 if touching else -0.5
+    if box_first:
+        box(scene, (-9.0, bottom, -9.0), (9.0, 3.0, 9.0), absorption=0.7)
+    floor = scene.add_material(base_color=(0.5,) * 3, specular_weight=0.0)
+    scene.add_instance(scene.add_mesh(np.array([[-9, 0, -9], [-9, 0, 9], [9, 0, 9], [9, 0, -9]], "f4"), np.array([[0, 1, 2], [0, 2, 3]], "i4")), [floor])
+    if not box_first:
+        box(scene, (-9.0, bottom, -9.0), (9.0, 3.0, 9.0), absorption=0.7)
+    scene.add_light("point", transform=gonio.look_at((0, 1, 0), (0, 0, 0), (0, 0, 1)))
+    found, _ = seen(scene, 4, max_bounces=0)
+    way = 1.0 + math.hypot(0.3, 2.0)
+    assert found == pytest.approx([0.5 / math.pi * math.exp(-0.7 * way)] * 3, rel=2e-3)

@@ -94,6 +94,14 @@ impl<L: Lanes> MediaSet<L> {
         self.exchanged(row, 0, chosen)
     }
 
+    /// As it was before a boundary of what a row fills was crossed: who is in it has entered it.
+    #[inline(always)]
+    pub(crate) fn back_across(self, row: u32, chosen: M<L>) -> Self {
+        let [first, second] = self.names;
+        let inside = (first & NAME).eq(row) | (first >> BITS).eq(row) | (second & NAME).eq(row);
+        self.entered(row, chosen.and_not(inside)).left(row, chosen & inside)
+    }
+
     /// With another name in the first place that has this one.
     #[inline(always)]
     fn exchanged(mut self, from: u32, to: u32, mut chosen: M<L>) -> Self {

@@ -91,6 +91,16 @@ impl PassedHits {
         if self.any { l.gather(&self.items, ray << 2) } else { l.f(0.0) }
     }
 
+    /// Instances and primitives that some rays passed last; `None` where no ray has passed anything.
+    #[inline(always)]
+    pub(crate) fn last<L: Lanes>(&self, l: L, ray: U<L>) -> Option<[U<L>; 2]> {
+        if !self.any {
+            return None;
+        }
+        let [_, instance, primitive, _] = l.gather_quads(&self.items, ray << 2);
+        Some([instance.to_bits(), primitive.to_bits()])
+    }
+
     /// Copies an entry over another.
     pub(crate) fn copy(&mut self, from: usize, to: usize) {
         if self.any {

@@ -6,6 +6,7 @@ pub(crate) mod first_surface;
 pub(crate) mod forward;
 pub(crate) mod guided;
 pub(crate) mod integrator;
+pub(crate) mod media;
 pub(crate) mod portal;
 pub(crate) mod scatter;
 pub(crate) mod shading;

@@ -8,10 +8,10 @@ use crate::accumulate::expression_sums::with_state;
 use crate::accumulate::guides::{add_guides, is_specular_path};
 use crate::geometry::NONE;
 use crate::kernels::{self, LightHit};
-use crate::media::set::Solid;
 use crate::stage::shade::catcher;
 use crate::stage::shade::first_surface::{add_first_surface, without_holdouts};
 use crate::stage::shade::integrator::Integrator;
+use crate::stage::shade::media::absorb;
 use crate::state::chunk::ChunkContext;
 use crate::state::columns::load3;
 use crate::state::mix_weights::ClosureWeights;
@@ -22,7 +22,7 @@ use crate::tables::material::{SurfaceMaterial, parameter_values};
 use crate::tables::transport::PathFilter;
 use crate::words::{code, event, flag};
 use gonio_bsdf::{
-    Hits, Lobes, ParameterValues, WAY_NUMBERS,
+    Hits, Lobes, WAY_NUMBERS,
     normals::{Normals, is_raised},
     parameter::EMISSION_COLOR,
 };
@@ -133,30 +133,6 @@ pub(crate) fn normals<L: Lanes>(
     let smooth = if mapped { frame.to_local(load3(l, &surface.smooth_normal, at)) } else { Vec3::splat(l, [0.0, 0.0, 1.0]) };
     let coat = if program.coat_normal.is_some() { Some(frame.to_local(load3(l, &surface.coat_normal, at))) } else { None };
     Some(Normals { geometric, smooth, coat })
-}
-
-/// Dims the path by what it has come through (Beer and Lambert), and looks up what is behind the surface.
-#[inline(always)]
-fn absorb<L: Lanes>(
-    chunk: &ChunkContext<'_, L>,
-    material: &SurfaceMaterial,
-    values: &ParameterValues<'_>,
-    point: &mut Vertex<L>,
-    at: usize,
-) {
-    let l = chunk.l;
-    point.core.media = chunk.paths.media.gather(l, point.path);
-    // What is before the surface that it went straight through last is behind it.
-    let distance = l.gather(&chunk.hits.t, point.path) - chunk.paths.rays.passed.distance(l, point.path);
-    point.core.throughput = point.core.throughput * point.core.media.transmittance(&chunk.tables.materials.media, distance);
-    let surface = &material.surface;
-    let solid = match material.solid_medium {
-        Some(row) => Some(Solid { absorption: Spectrum::zero(l), row }),
-        None if surface.is_solid() => Some(Solid { absorption: surface.absorption(l, values, at), row: 0 }),
-        None => None,
-    };
-    let entering = l.load(&chunk.columns.surface.side, at).gt(0.0);
-    point.behind = point.core.media.behind(solid, material.interior, entering);
 }
 
 /// Records the denoisers' guides and measured points; returns where lights can be sampled (not purely specular), and which paths go on.
