@@ -11,7 +11,8 @@ pub(crate) fn read_spectrum<'py>(py: Python<'py>, data: &[u8], name: &str) -> Py
     described(py, &found)
 }
 
-/// The spectrum of a name, as `read_spectrum` gives it: an illuminant of the CIE such as FL11, LED-B3 or D65, 2700K for a blackbody, D5700K for daylight.
+/// The spectrum of a name, as `read_spectrum` gives it: an illuminant of the CIE such as FL11, LED-B3 or D65; 2700K is a blackbody, D5700K
+/// daylight.
 #[pyfunction]
 pub(crate) fn illuminant<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyDict>> {
     let unknown = || setting("name", format!("'{name}' was found, expected one of {}", gonio_spectrum::NAMES));
@@ -28,8 +29,8 @@ fn described<'py>(py: Python<'py>, spectrum: &Spectrum) -> PyResult<Bound<'py, P
     Ok(described)
 }
 
-/// What a lamp's spectrum says: x, y, u_prime, v_prime, peak_nm, ler in lm/W, melanopic_der and alpha_opic, cct in K, duv, ra, r (R1 to R15), ra_in_range,
-/// rf, rg, hue_bins (rf, rcs_percent, rhs), notes. What is undefined for the light is None.
+/// What a lamp's spectrum says: x, y, u_prime, v_prime, peak_nm, ler in lm/W, melanopic_der and alpha_opic, cct in K, duv, ra, r (R1 to R15),
+/// ra_in_range, rf, rg, hue_bins (rf, rcs_percent, rhs), notes. What is undefined for the light is None.
 /// wavelengths_nm: increasing; power: in any unit, per nm.
 #[pyfunction]
 pub(crate) fn spectrum_figures<'py>(py: Python<'py>, wavelengths_nm: Vec<f64>, power: Vec<f64>) -> PyResult<Bound<'py, PyDict>> {

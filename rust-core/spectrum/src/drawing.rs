@@ -5,6 +5,7 @@ mod vectors;
 use crate::{
     figures::Figures,
     observer::{OBSERVED, cie_1931},
+    rendering::TOLERANCE,
     source::Spectrum,
 };
 use gonio_formats::escape;
@@ -52,9 +53,10 @@ fn headline(figures: &Figures) -> String {
     let Some(white) = &figures.white else {
         return format!("x {:.4}, y {:.4}", figures.xy[0], figures.xy[1]);
     };
-    let tm30 = white.rendition.as_ref().map_or(String::new(), |tm30| format!("   Rf {:.0}   Rg {:.0}", tm30.rf, tm30.rg));
+    let tm30 = white.rendition.as_ref().map_or(String::new(), |tm30| format!(", Rf {:.0}, Rg {:.0}", tm30.rf, tm30.rg));
     let melanopic = figures.alpha_opic[4].der;
-    format!("{:.0} K   Duv {:+.4}   Ra {:.0}{tm30}   melanopic DER {melanopic:.2}", white.cct, white.duv, white.rendering.ra)
+    let doubt = if white.rendering.distance > TOLERANCE { " (outside of CIE 13.3's range)" } else { "" };
+    format!("{:.0} K, Duv {:+.4}, Ra {:.0}{doubt}{tm30}, melanopic DER {melanopic:.2}", white.cct, white.duv, white.rendering.ra)
 }
 
 /// Where a wavelength and a share of the largest power lie.

@@ -83,7 +83,9 @@ pub fn figures(spectrum: &Spectrum) -> Figures {
 fn doubts(white: &White) -> impl Iterator<Item = String> {
     let distance = white.rendering.distance;
     let far = (distance > TOLERANCE).then(|| {
-        format!("Ra and R1 to R15 are outside of CIE 13.3's range: the lamp is {distance:.4} from its reference in the 1960 diagram, {TOLERANCE} at most")
+        format!(
+            "Ra and R1 to R15 are outside of CIE 13.3's range: {distance:.4} from the reference in the 1960 diagram, {TOLERANCE} at most"
+        )
     });
     let none = white.rendition.is_none().then(|| "no Rf and Rg: a hue bin of TM-30 holds no sample in this light".to_owned());
     far.into_iter().chain(none)

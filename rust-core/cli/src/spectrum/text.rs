@@ -97,7 +97,8 @@ pub(super) fn as_table(lamps: &[Lamp]) -> Vec<String> {
             figures.ler,
         ));
     }
-    let notes = lamps.iter().zip(&names).flat_map(|(lamp, name)| lamp.figures.notes.iter().map(move |note| format!("note: {name}: {note}")));
+    let notes =
+        lamps.iter().zip(&names).flat_map(|(lamp, name)| lamp.figures.notes.iter().map(move |note| format!("note: {name}: {note}")));
     lines.extend(notes);
     tame(lines)
 }
