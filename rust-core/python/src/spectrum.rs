@@ -53,7 +53,7 @@ pub(crate) fn spectrum_figures<'py>(py: Python<'py>, wavelengths_nm: Vec<f64>, p
         let receptor = PyDict::new(py);
         receptor.set_item("elr_mw_per_lm", found.elr_mw_per_lm)?;
         receptor.set_item("der", found.der)?;
-        receptors.set_item(short, receptor)?;
+        receptors.set_item(*short, receptor)?;
     }
     described.set_item("alpha_opic", receptors)?;
     of_white(&described, figures.white.as_ref())?;
