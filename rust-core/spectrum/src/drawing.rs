@@ -79,7 +79,7 @@ fn strips(page: &mut String, spectrum: &Spectrum) {
             page,
             format_args!(
                 "<polygon points=\"{x0:.2},{base:.2} {x0:.2},{y0:.2} {x1:.2},{y1:.2} {x1:.2},{base:.2}\" \
-                 fill=\"{colour}\" stroke=\"{colour}\" stroke-width=\"0.4\"/>"
+                 fill=\"{colour}\" stroke=\"{colour}\" stroke-width=\"1\"/>"
             ),
         );
     }
