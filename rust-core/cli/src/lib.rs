@@ -40,6 +40,7 @@ mod report;
 mod sequence;
 mod share;
 mod snapshot;
+mod spectrum;
 mod view;
 
 pub use farm::farm_scene;
@@ -97,6 +98,7 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
         Command::Compare(options) => compare::compare(&options),
         Command::Relight(options) => py.detach(|| relight::relight(&options)),
         Command::Photometry(options) => photometry::photometry(&options),
+        Command::Spectrum(options) => spectrum::spectrum(&options),
         Command::Bsdf(options) => bsdf::bsdf(py, &options, &INTERRUPTED),
         Command::Measure(options) => measure::measure(py, &options, &INTERRUPTED),
         Command::Goniometer(options) => goniometer::goniometer(py, &options, &INTERRUPTED),

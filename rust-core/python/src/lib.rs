@@ -30,6 +30,7 @@ mod render;
 mod sample;
 mod scene;
 mod settings;
+mod spectrum;
 mod table;
 mod usd;
 mod view;
@@ -80,6 +81,8 @@ mod _gonio {
     use crate::sample::{SampleReading, sample_bsdf};
     #[pymodule_export]
     use crate::scene::Scene;
+    #[pymodule_export]
+    use crate::spectrum::{illuminant, read_spectrum, spectrum_figures};
     #[pymodule_export]
     use crate::usd::{_files_of_stage, _main, _scene, _view_scene, load_usd};
 

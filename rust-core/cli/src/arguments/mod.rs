@@ -18,6 +18,7 @@ mod photometry;
 mod picture;
 mod render;
 mod report;
+mod spectrum;
 mod stage;
 mod texture;
 mod view;
@@ -40,6 +41,7 @@ pub(super) use photometry::{PhotometryOptions, SymmetryName};
 pub(super) use picture::{CompareOptions, RelightOptions};
 pub(super) use render::{FilterArgument, HeadlightArgument, RenderOptions};
 pub(super) use report::ReportOptions;
+pub(super) use spectrum::SpectrumOptions;
 pub(super) use stage::{ComplexityArgument, StageArguments};
 pub(super) use texture::TextureArguments;
 pub(super) use view::{ShowArgument, ViewOptions};
@@ -52,6 +54,7 @@ use goniometer::GONIOMETER_EXAMPLES;
 use map::MAP_EXAMPLES;
 use measure::MEASURE_EXAMPLES;
 use report::REPORT_EXAMPLES;
+use spectrum::SPECTRUM_EXAMPLES;
 use view::VIEW_EXAMPLES;
 
 /// What the process's status says.
@@ -103,6 +106,12 @@ pub(super) enum Command {
     Relight(RelightOptions),
     /// Say what an IES or EULUMDAT file holds: flux, efficacy, beam and field angle, problems; draw and convert it.
     Photometry(PhotometryOptions),
+    /// Say what a lamp's spectrum means: chromaticity, CCT, Ra, TM-30's Rf and Rg, melanopic DER, lm/W; draw it with the colour vectors.
+    ///
+    /// Reads text of nanometres and power (CSV, semicolons, tabs, blanks) and IES TM-27 .spdx, and knows the CIE's illuminants, blackbodies and
+    /// daylight by name. Several of them make a table. A figure that is undefined for a light, or outside its standard's range, says so.
+    #[command(after_long_help = SPECTRUM_EXAMPLES)]
+    Spectrum(SpectrumOptions),
     /// Say what a measured material's file holds: angles, albedo, reciprocity, energy, problems; draw, convert and fit it. Measure a sample.
     ///
     /// Takes MERL .binary, RGL .bsdf, pBRDF .pbsdf, UTIA .bin, BSDF XML of Radiance and WINDOW, Zemax .bsdf and gonio's own .gbsdf; content

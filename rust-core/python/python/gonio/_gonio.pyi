@@ -62,6 +62,9 @@ __all__ = [
     "SampleReading",
     "read_goniogram",
     "ugr_table",
+    "illuminant",
+    "read_spectrum",
+    "spectrum_figures",
     "__version__",
     "simd_level",
     "surface_parameters",
@@ -872,6 +875,9 @@ def read_goniogram(
 def ugr_table(
     data: bytes, name: str, *, spacing: float = 0.25, lamp_set: int | None = None, tilt: float = 0.0
 ) -> dict[str, Any]: ...
+def illuminant(name: str) -> dict[str, Any]: ...
+def read_spectrum(data: bytes, name: str) -> dict[str, Any]: ...
+def spectrum_figures(wavelengths_nm: Sequence[float], power: Sequence[float]) -> dict[str, Any]: ...
 def merge(paths: Sequence[str | PathLike[str]]) -> Film: ...
 def load_usd(
     path: str | PathLike[str],

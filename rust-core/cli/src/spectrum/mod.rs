@@ -1,0 +1,66 @@
+//! `gonio spectrum`.
+
+mod json;
+mod text;
+
+use super::{
+    arguments::SpectrumOptions,
+    drawing,
+    file::{self, check_ending, check_targets, put},
+    messages::print,
+};
+use gonio::{Error, Result};
+use gonio_spectrum::{Figures, NAMES, Spectrum, figures, named, read, spectrum_drawing};
+use serde_json::Value;
+use std::path::Path;
+
+/// The longest file in bytes: a thousand times the longest of a spectrometer.
+const LONGEST: u64 = 64 << 20;
+
+/// A lamp as it was asked for, its spectrum and what that says.
+#[derive(Debug)]
+struct Lamp {
+    asked: String,
+    spectrum: Spectrum,
+    figures: Figures,
+}
+
+/// Reads the spectra, says what they mean, and draws one if asked to.
+pub(super) fn spectrum(options: &SpectrumOptions) -> Result<i32> {
+    if let Some(path) = &options.output {
+        check_ending("output", path, drawing::ENDINGS)?;
+        if options.sources.len() > 1 {
+            return Err(Error::setting("output", format!("one lamp is drawn, {} were named", options.sources.len())));
+        }
+        check_targets([path])?;
+    }
+    let lamps: Vec<Lamp> = options.sources.iter().map(|source| lamp(source)).collect::<Result<_>>()?;
+    if let (Some(path), [lamp]) = (&options.output, lamps.as_slice()) {
+        put(path, &drawing::encoded(spectrum_drawing(&lamp.spectrum, &lamp.figures), path)?)?;
+    }
+    match lamps.as_slice() {
+        [lamp] if options.json => print(&json::as_json(lamp).to_string()),
+        lamps if options.json => print(&Value::from_iter(lamps.iter().map(json::as_json)).to_string()),
+        [lamp] => text::as_text(lamp).iter().for_each(|line| print(line)),
+        lamps => text::as_table(lamps).iter().for_each(|line| print(line)),
+    }
+    Ok(0)
+}
+
+/// A file's lamp, or where there is no such file the lamp of that name.
+fn lamp(source: &Path) -> Result<Lamp> {
+    let asked = source.to_string_lossy().into_owned();
+    let spectrum = match named(&asked).filter(|_| !source.exists()) {
+        Some(found) => found.map_err(|error| Error::setting(&asked, error.problem))?,
+        None if !source.exists() && source.extension().is_none() && source.components().count() == 1 => {
+            return Err(Error::setting(&asked, format!("neither a file nor a name, which are {NAMES}")));
+        }
+        None => {
+            let bytes = file::read(source, LONGEST, "spectrum's file")?;
+            let name = source.file_name().unwrap_or_default().to_string_lossy();
+            read(&bytes, &name).map_err(|error| Error::in_file(source, &error))?
+        }
+    };
+    let figures = figures(&spectrum);
+    Ok(Lamp { asked, spectrum, figures })
+}

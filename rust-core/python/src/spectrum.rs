@@ -1,0 +1,88 @@
+//! Spectra of lamps and what they say.
+
+use crate::error::{exception, setting};
+use gonio_spectrum::{OPSINS, Spectrum, White, named};
+use pyo3::{prelude::*, types::PyDict};
+
+/// The spectrum of a file's bytes, text of nm and power or IES TM-27: `name`, `wavelengths_nm`, `power` over its largest, and `notes` on the data.
+#[pyfunction]
+pub(crate) fn read_spectrum<'py>(py: Python<'py>, data: &[u8], name: &str) -> PyResult<Bound<'py, PyDict>> {
+    let found = gonio_spectrum::read(data, name).map_err(|error| exception(gonio::Error::in_file(name, &error)))?;
+    described(py, &found)
+}
+
+/// The spectrum of a name, as `read_spectrum` gives it: an illuminant of the CIE such as FL11, LED-B3 or D65; 2700K is a blackbody, D5700K
+/// daylight.
+#[pyfunction]
+pub(crate) fn illuminant<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyDict>> {
+    let unknown = || setting("name", format!("'{name}' was found, expected one of {}", gonio_spectrum::NAMES));
+    let found = named(name).ok_or_else(unknown)?.map_err(|error| setting("name", error.problem))?;
+    described(py, &found)
+}
+
+fn described<'py>(py: Python<'py>, spectrum: &Spectrum) -> PyResult<Bound<'py, PyDict>> {
+    let described = PyDict::new(py);
+    described.set_item("name", &spectrum.name)?;
+    described.set_item("wavelengths_nm", &spectrum.wavelengths_nm)?;
+    described.set_item("power", &spectrum.power)?;
+    described.set_item("notes", &spectrum.notes)?;
+    Ok(described)
+}
+
+/// What a lamp's spectrum says: x, y, u_prime, v_prime, peak_nm, ler in lm/W, melanopic_der and alpha_opic, cct in K, duv, ra, r (R1 to R15),
+/// ra_in_range, rf, rg, hue_bins (rf, rcs_percent, rhs), notes. What is undefined for the light is None.
+/// wavelengths_nm: increasing; power: in any unit, per nm.
+#[pyfunction]
+pub(crate) fn spectrum_figures<'py>(py: Python<'py>, wavelengths_nm: Vec<f64>, power: Vec<f64>) -> PyResult<Bound<'py, PyDict>> {
+    let spectrum = Spectrum::new("", &wavelengths_nm, &power).map_err(|error| setting("spectrum", error.problem))?;
+    let figures = py.detach(|| gonio_spectrum::figures(&spectrum));
+    let described = PyDict::new(py);
+    for (key, value) in [
+        ("x", figures.xy[0]),
+        ("y", figures.xy[1]),
+        ("u_prime", figures.uv[0]),
+        ("v_prime", figures.uv[1]),
+        ("peak_nm", figures.peak_nm),
+        ("ler", figures.ler),
+        ("melanopic_der", figures.alpha_opic[4].der),
+    ] {
+        described.set_item(key, value)?;
+    }
+    let receptors = PyDict::new(py);
+    for ((short, _), found) in OPSINS.iter().zip(&figures.alpha_opic) {
+        let receptor = PyDict::new(py);
+        receptor.set_item("elr_mw_per_lm", found.elr_mw_per_lm)?;
+        receptor.set_item("der", found.der)?;
+        receptors.set_item(*short, receptor)?;
+    }
+    described.set_item("alpha_opic", receptors)?;
+    of_white(&described, figures.white.as_ref())?;
+    described.set_item("notes", figures.notes)?;
+    Ok(described)
+}
+
+/// Figures of white light.
+fn of_white(described: &Bound<'_, PyDict>, white: Option<&White>) -> PyResult<()> {
+    let rendering = white.map(|white| &white.rendering);
+    let tm30 = white.and_then(|white| white.rendition.as_ref());
+    described.set_item("cct", white.map(|white| white.cct))?;
+    described.set_item("duv", white.map(|white| white.duv))?;
+    described.set_item("ra", rendering.map(|rendering| rendering.ra))?;
+    described.set_item("r", rendering.map(|rendering| rendering.r.to_vec()))?;
+    described.set_item("ra_in_range", rendering.map(|rendering| rendering.distance <= gonio_spectrum::TOLERANCE))?;
+    described.set_item("rf", tm30.map(|tm30| tm30.rf))?;
+    described.set_item("rg", tm30.map(|tm30| tm30.rg))?;
+    let bins = tm30.map(|tm30| {
+        tm30.bins
+            .iter()
+            .map(|bin| {
+                let described_bin = PyDict::new(described.py());
+                described_bin.set_item("rf", bin.fidelity)?;
+                described_bin.set_item("rcs_percent", bin.chroma_shift)?;
+                described_bin.set_item("rhs", bin.hue_shift)?;
+                Ok(described_bin)
+            })
+            .collect::<PyResult<Vec<_>>>()
+    });
+    described.set_item("hue_bins", bins.transpose()?)
+}

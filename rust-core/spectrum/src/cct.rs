@@ -1,0 +1,67 @@
+//! Correlated colour temperature: the blackbody nearest in the CIE 1960 diagram (CIE 15), and how far it is, Duv (ANSI C78.377).
+
+use crate::{illuminant::planck, observer};
+use std::sync::LazyLock;
+
+/// The lowest temperature that is looked for, K.
+pub const LOWEST_CCT: f64 = 1000.0;
+/// The highest, K, where daylight of the CIE ends.
+pub const HIGHEST_CCT: f64 = 25_000.0;
+/// How far from the blackbodies a light may be and still have a correlated colour temperature (CIE 15, 9.4).
+pub const LARGEST_DUV: f64 = 0.05;
+
+/// Temperatures of the first search over one another.
+const RATIO: f64 = 1.01;
+
+/// Steps of the second search: 1.02 × 0.618^40 is 5e-9 of the temperature.
+const STEPS: usize = 40;
+
+/// Blackbodies in steps of one per cent from below the lowest to above the highest temperature: ln K, u, v.
+static LOCUS: LazyLock<Vec<(f64, [f64; 2])>> = LazyLock::new(|| {
+    let [from, to] = [(LOWEST_CCT / RATIO.powi(2)).ln(), (HIGHEST_CCT * RATIO.powi(2)).ln()];
+    let count = ((to - from) / RATIO.ln()).ceil() as usize;
+    (0..=count).map(|k| from + (to - from) * k as f64 / count as f64).map(|log| (log, blackbody(log))).collect()
+});
+
+/// u, v of the blackbody of exp(`log`) kelvin.
+fn blackbody(log: f64) -> [f64; 2] {
+    let kelvin = log.exp();
+    let mut sums = [0.0; 3];
+    for nm in 360..=830 {
+        let power = planck(f64::from(nm), kelvin);
+        let observed = gonio_formats::bsdf::cie_1931(f64::from(nm));
+        sums.iter_mut().zip(observed).for_each(|(sum, observed)| *sum += power * observed);
+    }
+    observer::uv(sums)
+}
+
+fn distance([u0, v0]: [f64; 2], [u1, v1]: [f64; 2]) -> f64 {
+    (u1 - u0).hypot(v1 - v0)
+}
+
+/// The correlated colour temperature in K and Duv of a chromaticity in the 1960 diagram; `None` where the nearest blackbody lies beyond
+/// [`LOWEST_CCT`] or [`HIGHEST_CCT`].
+pub(crate) fn cct(uv: [f64; 2]) -> Option<(f64, f64)> {
+    let nearest = (0..LOCUS.len()).min_by(|a, b| distance(uv, LOCUS[*a].1).total_cmp(&distance(uv, LOCUS[*b].1)))?;
+    let [mut low, mut high] = [LOCUS[nearest.saturating_sub(1)].0, LOCUS[(nearest + 1).min(LOCUS.len() - 1)].0];
+    // Golden section: the distance has one minimum between neighbours of the nearest.
+    let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
+    let at = |log: f64| (log, distance(uv, blackbody(log)));
+    let mut inner = [at(high - golden * (high - low)), at(low + golden * (high - low))];
+    for _ in 0..STEPS {
+        if inner[0].1 < inner[1].1 {
+            high = inner[1].0;
+            inner = [at(high - golden * (high - low)), inner[0]];
+        } else {
+            low = inner[0].0;
+            inner = [inner[1], at(low + golden * (high - low))];
+        }
+    }
+    let log = 0.5 * (low + high);
+    let kelvin = log.exp();
+    let on = blackbody(log);
+    let duv = distance(uv, on).copysign(uv[1] - on[1]);
+    // The search's own resolution, so that a blackbody of the limit is within.
+    let slack = 1.0 + 1e-6;
+    (LOWEST_CCT / slack..=HIGHEST_CCT * slack).contains(&kelvin).then_some((kelvin, duv))
+}

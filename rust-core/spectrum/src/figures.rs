@@ -1,0 +1,92 @@
+//! All figures of a spectrum.
+
+use crate::{
+    alpha_opic::{AlphaOpic, alpha_opic},
+    cct::{HIGHEST_CCT, LARGEST_DUV, LOWEST_CCT, cct},
+    illuminant::DAYLIGHT,
+    observer::{EFFICACY, cie_1931, uv, xy},
+    rendering::{Rendering, TOLERANCE, rendering},
+    rendition::{Rendition, rendition},
+    source::{Spectrum, sums},
+};
+
+/// What a spectrum says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figures {
+    /// CIE 1931 chromaticity x, y.
+    pub xy: [f64; 2],
+    /// CIE 1976 chromaticity u', v'.
+    pub uv: [f64; 2],
+    /// Where the power is largest, nm.
+    pub peak_nm: f64,
+    /// Luminous efficacy of radiation, lm/W, over the spectrum's own wavelengths.
+    pub ler: f64,
+    /// What each receptor gets, in the order of [`crate::OPSINS`].
+    pub alpha_opic: [AlphaOpic; 5],
+    /// What is defined for white light alone; `None` where the light is not.
+    pub white: Option<White>,
+    /// What a reader should know: of the data, and of figures that are undefined or outside their standard's range.
+    pub notes: Vec<String>,
+}
+
+/// Figures of white light, which has a correlated colour temperature.
+#[derive(Clone, Debug, PartialEq)]
+pub struct White {
+    /// Correlated colour temperature, K.
+    pub cct: f64,
+    /// Signed distance from the blackbodies in the CIE 1960 diagram, positive above them (greenish).
+    pub duv: f64,
+    /// CIE 13.3.
+    pub rendering: Rendering,
+    /// TM-30-20.
+    pub rendition: Option<Rendition>,
+}
+
+/// The figures of a spectrum.
+pub fn figures(spectrum: &Spectrum) -> Figures {
+    let nodes = spectrum.nodes();
+    let xyz = sums(&nodes, cie_1931);
+    let [u, v] = uv(xyz);
+    let [power] = sums(&nodes, |_| [1.0]);
+    let peak = (0..spectrum.power.len()).max_by(|a, b| spectrum.power[*a].total_cmp(&spectrum.power[*b])).unwrap_or(0);
+    let mut notes = spectrum.notes.clone();
+    let white = match cct([u, v]) {
+        Some((cct, duv)) if duv.abs() <= LARGEST_DUV => {
+            let rendering = rendering(&nodes, cct.min(DAYLIGHT[1]));
+            let white = White { cct, duv, rendering, rendition: rendition(&nodes, cct.min(DAYLIGHT[1])) };
+            notes.extend(doubts(&white));
+            Some(white)
+        }
+        Some((_, duv)) => {
+            notes.push(format!(
+                "no CCT, Ra, Rf and Rg: Duv is {duv:+.4}, and light further than {LARGEST_DUV} from the blackbodies is not white (CIE 15)"
+            ));
+            None
+        }
+        None => {
+            notes.push(format!("no CCT, Ra, Rf and Rg: the nearest blackbody lies outside of {LOWEST_CCT} to {HIGHEST_CCT} K"));
+            None
+        }
+    };
+    Figures {
+        xy: xy(xyz),
+        uv: [u, 1.5 * v],
+        peak_nm: spectrum.wavelengths_nm[peak],
+        ler: EFFICACY * xyz[1] / power,
+        alpha_opic: alpha_opic(&nodes),
+        white,
+        notes,
+    }
+}
+
+/// Where a white light's figures are outside of their standard's range.
+fn doubts(white: &White) -> impl Iterator<Item = String> {
+    let distance = white.rendering.distance;
+    let far = (distance > TOLERANCE).then(|| {
+        format!(
+            "Ra and R1 to R15 are outside of CIE 13.3's range: {distance:.4} from the reference in the 1960 diagram, {TOLERANCE} at most"
+        )
+    });
+    let none = white.rendition.is_none().then(|| "no Rf and Rg: a hue bin of TM-30 holds no sample in this light".to_owned());
+    far.into_iter().chain(none)
+}

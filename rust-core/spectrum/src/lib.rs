@@ -1,0 +1,41 @@
+//! Spectra of lamps and what they say: chromaticity, correlated colour temperature, colour rendering by CIE 13.3 and TM-30, luminous efficacy of
+//! radiation, the alpha-opic quantities of CIE S 026.
+//!
+//! ```
+//! let lamp = gonio_spectrum::named("FL11").expect("a name of the CIE's").expect("within its range");
+//! let figures = gonio_spectrum::figures(&lamp);
+//! assert_eq!(figures.white.expect("a white lamp").cct.round(), 3999.0);
+//! ```
+//!
+//! Wavelengths are in nanometres, power is per nanometre in any unit. A spectrum is summed at its own points, by the trapezoidal rule, as the CIE's
+//! tables in steps of 5 nm are; steps beyond 5 nm are divided linearly first. `data/README.md` names the tables and their licence.
+
+#![forbid(unsafe_code)]
+
+mod alpha_opic;
+mod appearance;
+mod cct;
+mod check;
+mod drawing;
+mod figures;
+mod illuminant;
+mod named;
+mod observer;
+mod read;
+mod rendering;
+mod rendition;
+mod source;
+mod table;
+
+pub use alpha_opic::{AlphaOpic, OPSINS};
+pub use cct::{HIGHEST_CCT, LARGEST_DUV, LOWEST_CCT};
+pub use drawing::spectrum_drawing;
+pub use figures::{Figures, White, figures};
+pub use named::{NAMES, named};
+pub use read::read;
+pub use rendering::{Rendering, TOLERANCE};
+pub use rendition::{HueBin, Rendition};
+pub use source::Spectrum;
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,50 @@
+//! Files of spectra: text of wavelength and power, and TM-27.
+
+mod spdx;
+mod text;
+
+use crate::source::Spectrum;
+use gonio_formats::FormatError;
+
+/// The longest file in bytes: a thousand times the longest of a spectrometer.
+const LONGEST: usize = 64 << 20;
+
+/// Letters of a file that messages show.
+const SHOWN: usize = 40;
+
+/// Reads a file's bytes: IES TM-27 (`.spdx`) where an XML document begins, else lines of nanometres and power. `name` is what it is called
+/// unless the file says.
+///
+/// # Errors
+/// What is no such file, and what [`Spectrum::new`] refuses, with the line.
+pub fn read(bytes: &[u8], name: &str) -> Result<Spectrum, FormatError> {
+    if bytes.len() > LONGEST {
+        return Err(FormatError::whole(format!("more than {LONGEST} bytes: no spectrum's file")));
+    }
+    let text = decoded(bytes)?;
+    if text.trim_start().starts_with('<') { spdx::read(&text, name) } else { text::read(&text, name) }
+}
+
+/// UTF-8, UTF-16 with its mark as spreadsheets write it, else Latin-1.
+fn decoded(bytes: &[u8]) -> Result<String, FormatError> {
+    let wide = |unit: fn([u8; 2]) -> u16| {
+        let units = bytes[2..].chunks_exact(2).map(|pair| unit([pair[0], pair[1]]));
+        char::decode_utf16(units).map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER)).collect()
+    };
+    let text: String = match bytes {
+        [0xff, 0xfe, ..] => wide(u16::from_le_bytes),
+        [0xfe, 0xff, ..] => wide(u16::from_be_bytes),
+        [0xef, 0xbb, 0xbf, rest @ ..] => String::from_utf8_lossy(rest).into_owned(),
+        _ => std::str::from_utf8(bytes).map_or_else(|_| bytes.iter().map(|byte| char::from(*byte)).collect(), str::to_owned),
+    };
+    match text.find('\0') {
+        Some(at) => Err(FormatError::byte(at as u64, "a zero byte: no text, expected lines of nm and power or TM-27's XML")),
+        None => Ok(text),
+    }
+}
+
+/// A part of a file for messages.
+fn quoted(text: &str) -> String {
+    let short: String = text.trim().chars().take(SHOWN).map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect();
+    if text.trim().chars().count() > SHOWN { format!("'{short}…'") } else { format!("'{short}'") }
+}

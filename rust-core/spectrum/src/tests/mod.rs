@@ -1,0 +1,5 @@
+//! Figures against published ones and independent code, and files of every kind.
+
+mod bad;
+mod figures;
+mod reading;
