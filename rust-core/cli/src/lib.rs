@@ -41,6 +41,7 @@ mod sequence;
 mod share;
 mod snapshot;
 mod view;
+mod volume;
 
 pub use farm::farm_scene;
 pub use view::{Viewed, view_scene};

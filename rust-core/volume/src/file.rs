@@ -20,6 +20,11 @@ enum Listing {
     NanoVdb(nano::Listing),
 }
 
+/// Whether a file that begins so is an OpenVDB or a NanoVDB file; eight bytes tell.
+pub fn is_volume_file(start: &[u8]) -> bool {
+    start.first_chunk().is_some_and(|magic| *magic == vdb::MAGIC || nano::is_magic(*magic))
+}
+
 /// Lists the grids of an OpenVDB (`.vdb`, file versions 220 to 225) or a NanoVDB (`.nvdb`) file, without their voxels. The content tells which it is.
 ///
 /// Takes time and memory for the masks of all trees, less than a tenth of the file. Files that were written as streams are gone through whole.

@@ -54,4 +54,18 @@ impl GridInfo {
             refused: None,
         }
     }
+
+    /// The least and the greatest coordinates in the world of the active voxels' cubes; nothing if none is active or the transform is not affine.
+    pub fn world_bounds(&self) -> Option<[[f64; 3]; 2]> {
+        let ([min, max], transform) = (self.bounds?, self.transform?);
+        let corners = (0..8).map(|corner| {
+            let edge = |axis: usize| if corner >> axis & 1 == 1 { f64::from(max[axis]) + 0.5 } else { f64::from(min[axis]) - 0.5 };
+            transform.point([edge(0), edge(1), edge(2)])
+        });
+        let empty = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+        Some(corners.fold(empty, |[low, high], point| {
+            let pick = |bound: [f64; 3], f: fn(f64, f64) -> f64| std::array::from_fn(|axis| f(bound[axis], point[axis]));
+            [pick(low, f64::min), pick(high, f64::max)]
+        }))
+    }
 }

@@ -28,7 +28,7 @@ mod value;
 mod vdb;
 
 pub use error::{Result, VolumeError};
-pub use file::{VolumeFile, from_bytes, open};
+pub use file::{VolumeFile, from_bytes, is_volume_file, open};
 pub use grid::{BRICK_EDGE, BRICK_VOXELS, Brick, Grid, GridClass, Tile};
 pub use info::GridInfo;
 pub use metadata::{Metadata, MetadataMap};
