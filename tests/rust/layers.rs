@@ -36,9 +36,10 @@ fn lines_with(folder: &str, needle: &str) -> Vec<String> {
 }
 
 /// Crates of the engine from the ground up, and which others of gonio each may use.
-const CRATES: [(&str, &[&str]); 13] = [
+const CRATES: [(&str, &[&str]); 14] = [
     ("simd", &[]),
     ("formats", &[]),
+    ("volume", &[]),
     ("mesh", &[]),
     ("accel", &["simd"]),
     ("image", &["simd"]),

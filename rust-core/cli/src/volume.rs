@@ -91,7 +91,8 @@ fn as_text(volume: &VolumeFile) -> Vec<String> {
 
 fn grid_lines(grid: &GridInfo) -> Vec<String> {
     let shared = grid.instance_of.as_ref().map(|other| format!(", shares the voxels of {other}")).unwrap_or_default();
-    let mut lines = vec![format!("grid {}: {}, {}, compression {}{shared}", grid.name, grid.value_type, grid.class.name(), grid.compression)];
+    let mut lines =
+        vec![format!("grid {}: {}, {}, compression {}{shared}", grid.name, grid.value_type, grid.class.name(), grid.compression)];
     if let Some(problem) = &grid.refused {
         lines.push(format!("warning: grid {} cannot be read: {problem}", grid.name));
     }

@@ -80,3 +80,18 @@ pub(crate) fn text<'a>(map: &'a MetadataMap, name: &str) -> Option<&'a str> {
         _ => None,
     })
 }
+
+/// An entry's type and bytes.
+pub(crate) fn encode(value: &Metadata) -> (&'static str, Vec<u8>) {
+    let kinds = |count: usize, names: [&'static str; 3]| names[count.clamp(2, 4) - 2];
+    match value {
+        Metadata::Text(text) => ("string", text.as_bytes().to_vec()),
+        Metadata::Flag(flag) => ("bool", vec![u8::from(*flag)]),
+        Metadata::Integer(integer) => ("int64", integer.to_le_bytes().to_vec()),
+        Metadata::Real(real) => ("double", real.to_le_bytes().to_vec()),
+        Metadata::Integers(all) => (kinds(all.len(), ["vec2i", "vec3i", "vec4i"]), all.iter().flat_map(|x| x.to_le_bytes()).collect()),
+        Metadata::Reals(all) if all.len() == 16 => ("mat4d", all.iter().flat_map(|x| x.to_le_bytes()).collect()),
+        Metadata::Reals(all) => (kinds(all.len(), ["vec2d", "vec3d", "vec4d"]), all.iter().flat_map(|x| x.to_le_bytes()).collect()),
+        Metadata::Other(..) => ("", Vec::new()),
+    }
+}

@@ -41,7 +41,10 @@ fn main() -> ExitCode {
     std::panic::set_hook(Box::new(|_| {}));
     match run(&seeds, Duration::from_secs_f64(seconds), seed) {
         Ok(tally) => {
-            eprintln!("{} inputs, {} listed, {} grids read, {seconds} s from seed {seed}, no finding", tally.inputs, tally.listed, tally.read);
+            eprintln!(
+                "{} inputs, {} listed, {} grids read, {seconds} s from seed {seed}, no finding",
+                tally.inputs, tally.listed, tally.read
+            );
             ExitCode::SUCCESS
         }
         Err((problem, input)) => {

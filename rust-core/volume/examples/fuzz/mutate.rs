@@ -4,8 +4,7 @@
 const LONGEST: usize = 1 << 18;
 
 /// Words that readers of counts and distances stumble over.
-const WORDS: [u64; 12] =
-    [0, 1, 2, 7, 0x7fff_ffff, 0xffff_ffff, 0x8000_0000, 0x7fc0_0000, 1 << 20, u64::MAX, 1 << 63, 2_000_000_000_000];
+const WORDS: [u64; 12] = [0, 1, 2, 7, 0x7fff_ffff, 0xffff_ffff, 0x8000_0000, 0x7fc0_0000, 1 << 20, u64::MAX, 1 << 63, 2_000_000_000_000];
 
 /// Random numbers (splitmix64).
 pub(crate) struct Random(u64);

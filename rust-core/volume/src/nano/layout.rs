@@ -28,8 +28,33 @@ pub(crate) struct Layout {
 
 /// The types' names by their numbers in files.
 const NAMES: [&str; 27] = [
-    "unknown", "float", "double", "int16", "int32", "int64", "Vec3f", "Vec3d", "mask", "half", "uint32", "bool", "RGBA8", "Fp4", "Fp8", "Fp16", "FpN",
-    "Vec4f", "Vec4d", "Index", "OnIndex", "IndexMask", "OnIndexMask", "PointIndex", "Vec3u8", "Vec3u16", "uint8",
+    "unknown",
+    "float",
+    "double",
+    "int16",
+    "int32",
+    "int64",
+    "Vec3f",
+    "Vec3d",
+    "mask",
+    "half",
+    "uint32",
+    "bool",
+    "RGBA8",
+    "Fp4",
+    "Fp8",
+    "Fp16",
+    "FpN",
+    "Vec4f",
+    "Vec4d",
+    "Index",
+    "OnIndex",
+    "IndexMask",
+    "OnIndexMask",
+    "PointIndex",
+    "Vec3u8",
+    "Vec3u16",
+    "uint8",
 ];
 
 /// Before masks and statistics: the box and flags of inner nodes; that of leaves is half as long.

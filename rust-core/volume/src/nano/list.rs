@@ -84,7 +84,11 @@ fn check_version(stream: &Stream, version: u32, start: u64) -> Result<()> {
     if version >> 21 == 32 {
         return Ok(());
     }
-    let problem = format!("NanoVDB's version {}.{}; versions 32.x are read: convert the grid anew with nanovdb_convert", version >> 21, version >> 10 & 0x7ff);
+    let problem = format!(
+        "NanoVDB's version {}.{}; versions 32.x are read: convert the grid anew with nanovdb_convert",
+        version >> 21,
+        version >> 10 & 0x7ff
+    );
     Err(stream.error_at(start, problem))
 }
 

@@ -63,7 +63,9 @@ pub(crate) fn list(stream: &mut Stream) -> Result<Listing> {
         if lost && index + 1 < count {
             let after = listing.entries.last().map_or("", |entry| &entry.info.name);
             let left = count - index - 1;
-            listing.notes.push(format!("{left} grids after '{after}' cannot be found: the file was written as a stream, without their places"));
+            listing
+                .notes
+                .push(format!("{left} grids after '{after}' cannot be found: the file was written as a stream, without their places"));
             break;
         }
     }
@@ -103,9 +105,10 @@ fn descriptor(stream: &mut Stream, header: &Header, before: &[Entry]) -> Result<
         grid(stream, header, &mut entry, ValueType::named(value_name, halved), &parent, before)?;
         return Ok(entry);
     }
-    let end = u64::try_from(end).ok().filter(|end| *end >= stream.position()).ok_or_else(|| {
-        stream.error_at(start, format!("the grid '{}' ends at byte {end}, before it begins", entry.info.name))
-    })?;
+    let end = u64::try_from(end)
+        .ok()
+        .filter(|end| *end >= stream.position())
+        .ok_or_else(|| stream.error_at(start, format!("the grid '{}' ends at byte {end}, before it begins", entry.info.name)))?;
     if end > stream.size() {
         let problem = format!("the grid '{}' ends at byte {end}, but the file has {}: it is truncated", entry.info.name, stream.size());
         return Err(stream.error_at(start, problem));
@@ -121,14 +124,7 @@ fn descriptor(stream: &mut Stream, header: &Header, before: &[Entry]) -> Result<
 }
 
 /// What stands before a grid's tree, and the tree's masks.
-fn grid(
-    stream: &mut Stream,
-    header: &Header,
-    entry: &mut Entry,
-    value: Option<ValueType>,
-    parent: &str,
-    before: &[Entry],
-) -> Result<()> {
+fn grid(stream: &mut Stream, header: &Header, entry: &mut Entry, value: Option<ValueType>, parent: &str, before: &[Entry]) -> Result<()> {
     let mut compression = header.compression;
     if header.version >= 222 {
         let flags = stream.u32()?;

@@ -3,8 +3,11 @@
 //! Source of the format: OpenVDB 13 (`io/Archive.cc`, `io/GridDescriptor.cc`, `io/Compression.h`, `tree/*Node.h`, `math/Maps.h`).
 
 mod list;
+mod nodes;
 mod packing;
 mod read;
+#[cfg(test)]
+mod tests;
 mod tree;
 pub(crate) mod write;
 

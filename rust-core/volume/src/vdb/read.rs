@@ -16,11 +16,8 @@ pub(crate) fn read(stream: &mut Stream, listing: &Listing, entry: &Entry, transf
     stream.seek(place.start)?;
     stream.limit(place.end);
     let mut unpacker = Unpacker::new(place.value, listing.version, place.compression);
-    let mut collected = Collector {
-        bricks: Vec::with_capacity(info.bricks as usize),
-        tiles: Vec::with_capacity(info.tiles as usize),
-        roots: Vec::new(),
-    };
+    let mut collected =
+        Collector { bricks: Vec::with_capacity(info.bricks as usize), tiles: Vec::with_capacity(info.tiles as usize), roots: Vec::new() };
     tree::topology(stream, &mut unpacker, &mut collected)?;
     let mut bricks = collected.in_order();
     let mut values = Values::with_capacity(storage, bricks.len() * BRICK_VOXELS);

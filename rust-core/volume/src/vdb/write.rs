@@ -1,9 +1,11 @@
 //! Writes OpenVDB files of version 224, which all programs of the last ten years read.
 
+use super::nodes::{Node, tree};
 use super::packing::Compression;
 use super::tree::CONFIGURATION;
 use super::{HALF_SUFFIX, MAGIC, SEPARATOR};
 use crate::grid::BRICK_VOXELS;
+use crate::metadata::encode;
 use crate::{Brick, Grid, Metadata, Result, Tile, Values, VolumeError};
 use miniz_oxide::deflate::compress_to_vec_zlib;
 use std::collections::BTreeMap;
@@ -56,14 +58,6 @@ pub fn to_bytes(grids: &[&Grid], packing: Packing) -> Result<Vec<u8>> {
 struct Writer {
     bytes: Vec<u8>,
     packing: Packing,
-}
-
-/// A place of the tree: nodes below, a tile, or a brick by its number.
-enum Node<'a> {
-    Upper(BTreeMap<usize, Node<'a>>),
-    Lower(BTreeMap<usize, Node<'a>>),
-    Brick(usize, &'a Brick),
-    Tile(&'a Tile),
 }
 
 impl Writer {
@@ -154,7 +148,7 @@ impl Writer {
         // The number of buffers.
         self.word(1);
         self.value(grid, grid.background);
-        let tiles = root.iter().filter_map(|(_, node)| if let Node::Tile(tile) = node { Some(*tile) } else { None });
+        let tiles = root.values().filter_map(|node| if let Node::Tile(tile) = node { Some(*tile) } else { None });
         let tiles: Vec<&Tile> = tiles.collect();
         self.word(tiles.len() as u32);
         self.word((root.len() - tiles.len()) as u32);
@@ -251,59 +245,4 @@ fn encode_value(values: &Values, value: [f32; 3], to: &mut Vec<u8>) {
         Values::Half(_) => to.extend(half::f16::from_f32(value[0]).to_le_bytes()),
         Values::Vector(_) => value.iter().for_each(|x| to.extend(x.to_le_bytes())),
     }
-}
-
-/// An entry's type and bytes.
-fn encode(value: &Metadata) -> (&'static str, Vec<u8>) {
-    let kinds = |count: usize, names: [&'static str; 3]| names[count.clamp(2, 4) - 2];
-    match value {
-        Metadata::Text(text) => ("string", text.as_bytes().to_vec()),
-        Metadata::Flag(flag) => ("bool", vec![u8::from(*flag)]),
-        Metadata::Integer(integer) => ("int64", integer.to_le_bytes().to_vec()),
-        Metadata::Real(real) => ("double", real.to_le_bytes().to_vec()),
-        Metadata::Integers(all) => (kinds(all.len(), ["vec2i", "vec3i", "vec4i"]), all.iter().flat_map(|x| x.to_le_bytes()).collect()),
-        Metadata::Reals(all) if all.len() == 16 => ("mat4d", all.iter().flat_map(|x| x.to_le_bytes()).collect()),
-        Metadata::Reals(all) => (kinds(all.len(), ["vec2d", "vec3d", "vec4d"]), all.iter().flat_map(|x| x.to_le_bytes()).collect()),
-        Metadata::Other(..) => ("", Vec::new()),
-    }
-}
-
-/// The nodes over a grid's bricks and tiles.
-fn tree(grid: &Grid) -> std::result::Result<BTreeMap<[i32; 3], Node<'_>>, String> {
-    let mut root = BTreeMap::new();
-    if grid.values.len() != grid.bricks.len() * BRICK_VOXELS {
-        return Err(format!("{} voxels in {} bricks of 512", grid.values.len(), grid.bricks.len()));
-    }
-    for (n, brick) in grid.bricks.iter().enumerate() {
-        insert(&mut root, brick.origin, 3, Node::Brick(n, brick))?;
-    }
-    for tile in &grid.tiles {
-        insert(&mut root, tile.origin, tile.log2_edge, Node::Tile(tile))?;
-    }
-    Ok(root)
-}
-
-fn insert<'a>(root: &mut BTreeMap<[i32; 3], Node<'a>>, origin: [i32; 3], log2: u8, node: Node<'a>) -> std::result::Result<(), String> {
-    if !matches!(log2, 3 | 7 | 12) || origin.iter().any(|x| x & ((1 << log2) - 1) != 0) {
-        return Err(format!("a brick or tile of edge 2^{log2} at {origin:?}; edges are 8, 128 and 4096, places multiples of them"));
-    }
-    let twice = || format!("two bricks or tiles at {origin:?}");
-    let place = |bits: u32, shift: u32| {
-        let part = |x: i32| (x >> shift) as usize & ((1 << bits) - 1);
-        part(origin[0]) << (2 * bits) | part(origin[1]) << bits | part(origin[2])
-    };
-    let key = origin.map(|x| x & !4095);
-    if log2 == 12 {
-        return if root.insert(key, node).is_none() { Ok(()) } else { Err(twice()) };
-    }
-    let Node::Upper(upper) = root.entry(key).or_insert_with(|| Node::Upper(BTreeMap::new())) else {
-        return Err(twice());
-    };
-    if log2 == 7 {
-        return if upper.insert(place(5, 7), node).is_none() { Ok(()) } else { Err(twice()) };
-    }
-    let Node::Lower(lower) = upper.entry(place(5, 7)).or_insert_with(|| Node::Lower(BTreeMap::new())) else {
-        return Err(twice());
-    };
-    if lower.insert(place(4, 3), node).is_none() { Ok(()) } else { Err(twice()) }
 }
