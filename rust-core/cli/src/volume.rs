@@ -25,7 +25,9 @@ pub(super) fn info(options: &InfoOptions) -> Result<i32> {
     if options.json {
         print(&as_json(&volume).to_string());
     } else {
-        as_text(&volume).iter().for_each(|line| print(line));
+        // Names are the file's, and must not break the line.
+        let plain = |line: &String| line.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect::<String>();
+        as_text(&volume).iter().for_each(|line| print(&plain(line)));
     }
     Ok(0)
 }

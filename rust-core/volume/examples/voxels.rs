@@ -1,7 +1,8 @@
 //! Hands the voxels of files to other programs, which compare them.
 //!
-//! `voxels dense FILE NAME OUT` writes the active box of a grid as single-precision numbers, x slowest and z fastest, and prints its bounds. `voxels copy FILE
-//! none|zip OUT` writes all grids of a file anew. `voxels time FILE` reads all grids, and prints seconds.
+//! - `voxels dense FILE NAME OUT` writes the active box of a grid as single-precision numbers, x slowest and z fastest, and prints its bounds.
+//! - `voxels copy FILE none|zip OUT` writes all grids of a file anew.
+//! - `voxels time FILE` reads all grids, and prints seconds.
 
 #![allow(clippy::print_stdout, reason = "what it is for")]
 

@@ -4,11 +4,11 @@ use crate::grid::BRICK_VOXELS;
 use crate::{Brick, Grid, GridClass, MetadataMap, Result, Transform, Values, VolumeError};
 
 impl Grid {
-    /// A fog volume of an array of `shape` voxels, x slowest and z fastest (as numpy's arrays of shape `(nx, ny, nz)` lie). The background is 0, voxels of
-    /// other values are active, and bricks of zeros are left out. Voxel (0, 0, 0) of the array is that of the grid.
+    /// A fog volume of an array of `shape` voxels, x slowest and z fastest, as numpy's arrays of shape `(nx, ny, nz)` lie. The background
+    /// is 0, voxels of other values are active, and bricks of zeros are left out. Voxel (0, 0, 0) of the array is that of the grid.
     ///
-    /// `transform` leads to the world; [`Transform::uniform`] takes the edge of a voxel and where the *centre* of voxel (0, 0, 0) lies. For an array
-    /// whose corner lies at `c` that is `c` and half an edge.
+    /// `transform` leads to the world; [`Transform::uniform`] takes the edge of a voxel and where the *centre* of voxel (0, 0, 0) lies. For
+    /// an array whose corner lies at `c` that is `c` and half an edge.
     ///
     /// # Errors
     ///

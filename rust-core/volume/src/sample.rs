@@ -93,8 +93,9 @@ impl<'a> Sampler<'a> {
         sum
     }
 
-    /// The exact bounds of the trilinear interpolation between the centres of the voxels `origin` and `origin + 8`: of the block's own 8³ voxels and
-    /// one row of its neighbours on the side of greater coordinates. Voxels that are no numbers do not count; if there are only such, `min > max`.
+    /// The exact bounds of the trilinear interpolation between the centres of the voxels `origin` and `origin + 8`: of the block's own 8³
+    /// voxels and one row of its neighbours on the side of greater coordinates. Voxels that are no numbers do not count; if there are only
+    /// such, `min > max`.
     pub fn range(&self, origin: [i32; 3]) -> BrickRange {
         let mut range = BrickRange { origin, min: [f32::INFINITY; 3], max: [f32::NEG_INFINITY; 3] };
         let mut add = |value: [f32; 3]| {
@@ -119,8 +120,9 @@ impl<'a> Sampler<'a> {
         range
     }
 
-    /// The bounds of all blocks of 8³ voxels whose interpolation may vary: bricks, tiles of that size, and the neighbours of both on the side of lesser
-    /// coordinates, whose last cells reach into them. Blocks within wider tiles are constant, but for those at a face of greater coordinates.
+    /// The bounds of all blocks of 8³ voxels whose interpolation may vary: bricks, tiles of that size, and the neighbours of both on the side
+    /// of lesser coordinates, whose last cells reach into them. Blocks within wider tiles are constant, but for those at a face of greater
+    /// coordinates, and those before a face of lesser ones.
     pub fn ranges(&self) -> Vec<BrickRange> {
         let small = self.grid.tiles.iter().filter(|tile| tile.log2_edge == 3).map(|tile| tile.origin);
         let origins = self.grid.bricks.iter().map(|brick| brick.origin).chain(small);

@@ -2,8 +2,8 @@
 //!
 //! `cargo run --profile quick -p gonio-volume --example fuzz -- SECONDS [SEED] [FILE...]`. The seeds are files that the crate writes, and those named.
 //!
-//! A panic, more than two seconds for one input, or more memory than 256 times the input's size and 16 MB is a finding: its bytes are written to
-//! `fuzz-volume-SEED.bin`, and the run ends with status 1. Of a kilobyte of masks a node makes 4096 tiles: those need the factor.
+//! A panic, more than two seconds for one input, or more memory than 256 times the input's size and 16 MB is a finding: its bytes are
+//! written to `fuzz-volume-SEED.bin`, and the run ends with status 1. A node makes 4096 tiles of a kilobyte of masks: those need the factor.
 
 mod memory;
 mod mutate;

@@ -1,7 +1,7 @@
 //! Good files, broken.
 
 /// The longest input.
-const LONGEST: usize = 1 << 18;
+const LONGEST: usize = 1 << 19;
 
 /// Words that readers of counts and distances stumble over.
 const WORDS: [u64; 12] = [0, 1, 2, 7, 0x7fff_ffff, 0xffff_ffff, 0x8000_0000, 0x7fc0_0000, 1 << 20, u64::MAX, 1 << 63, 2_000_000_000_000];
