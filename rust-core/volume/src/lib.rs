@@ -5,7 +5,7 @@
 //! values at the corner of least coordinates adds half a voxel to each index.
 //!
 //! [`open`] lists the grids of a file without their voxels; [`VolumeFile::read`] reads one. [`Sampler`] looks values up.
-//! [`Grid::from_dense`] makes a grid of an array, [`write`] makes a file of grids.
+//! [`Grid::from_dense`] makes a grid of an array, [`write()`] makes a file of grids.
 //!
 //! Files are nobody's friends: each count that a file states is checked against its size before anything is allocated, listing takes memory for
 //! nothing that the file does not hold, and no bytes make a panic. A grid's memory is known before it is read.

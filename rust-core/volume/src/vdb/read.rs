@@ -5,13 +5,13 @@ use super::packing::Unpacker;
 use super::tree::{self, Visitor, splat};
 use crate::grid::BRICK_VOXELS;
 use crate::stream::Stream;
-use crate::{Brick, Grid, Result, Tile, Transform, Values, VolumeError};
+use crate::{Brick, Grid, Result, Tile, Transform, Values};
 
 /// Reads a grid that the listing does not refuse.
 pub(crate) fn read(stream: &mut Stream, listing: &Listing, entry: &Entry, transform: Transform) -> Result<Grid> {
     let info = &entry.info;
     let (Some(place), Some(storage)) = (entry.tree, entry.tree.and_then(|place| place.value.storage())) else {
-        return Err(VolumeError { file: String::new(), byte: None, problem: "a grid without a tree".into() });
+        return Err(stream.error("a grid without a tree"));
     };
     stream.seek(place.start)?;
     stream.limit(place.end);
