@@ -2,7 +2,7 @@
 
 use super::{arguments::InfoOptions, file, messages::print};
 use gonio::{Error, Result};
-use gonio_volume::{GridInfo, Metadata, VolumeFile};
+use gonio_volume::{GridInfo, Metadata, VolumeError, VolumeFile};
 use serde_json::{Map, Value, json};
 use std::path::Path;
 
@@ -18,10 +18,8 @@ pub(super) fn info(options: &InfoOptions) -> Result<i32> {
         let option = if options.frame.is_some() { "--frame" } else { "--explain" };
         return Err(Error::setting(option, format!("{} holds volume grids, expected a USD stage", path.display())));
     }
-    let volume = gonio_volume::open(path).map_err(|error| {
-        let problem = error.byte.map_or(error.problem.clone(), |byte| format!("byte {byte}: {}", error.problem));
-        Error::Format { path: path.into(), line: None, problem }
-    })?;
+    let wrong = |error: VolumeError| Error::Format { path: path.into(), line: None, problem: error.in_file() };
+    let volume = gonio_volume::open(path).map_err(wrong)?;
     if options.json {
         print(&as_json(&volume).to_string());
     } else {

@@ -16,6 +16,11 @@ pub struct VolumeError {
 }
 
 impl VolumeError {
+    /// The place and the problem, for those who have named the file.
+    pub fn in_file(&self) -> String {
+        self.byte.map_or_else(|| self.problem.clone(), |byte| format!("byte {byte}: {}", self.problem))
+    }
+
     pub(crate) fn whole(file: &str, problem: impl Into<String>) -> Self {
         Self { file: file.into(), byte: None, problem: problem.into() }
     }

@@ -6,6 +6,9 @@ use std::io::{BufReader, Cursor, ErrorKind, Read, Seek, SeekFrom};
 use std::path::PathBuf;
 use std::sync::Arc;
 
+/// Bytes of the longest name of a grid, a type or an entry.
+const LONGEST_NAME: u32 = 4096;
+
 /// Where the bytes of a volume file are.
 #[derive(Clone, Debug)]
 pub(crate) enum Source {
@@ -154,11 +157,14 @@ impl Stream {
         Ok(words)
     }
 
-    /// A text after its length.
+    /// A name after its length.
     pub(crate) fn text(&mut self) -> Result<String> {
         let length = self.u32()?;
+        if length > LONGEST_NAME {
+            return Err(self.error(format!("a name of {length} bytes, expected at most {LONGEST_NAME}")));
+        }
         let mut bytes = Vec::new();
-        self.fill(&mut bytes, length.into(), "a text")?;
+        self.fill(&mut bytes, length.into(), "a name")?;
         Ok(String::from_utf8_lossy(&bytes).into_owned())
     }
 }

@@ -85,6 +85,6 @@ fn affine(stream: &mut Stream, name: &str, start: u64) -> Result<Transform> {
             stream.skip(4 * 24)?;
             Ok(Transform::scaled(scale, translation))
         }
-        _ => Err(stream.error_at(start, format!("a transform of type {name:?}, which OpenVDB does not have"))),
+        _ => Err(stream.error_at(start, format!("a transform of type {name:.40}, which OpenVDB does not have"))),
     }
 }

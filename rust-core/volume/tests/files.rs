@@ -168,7 +168,7 @@ fn absurd_claims_are_refused() {
     assert!(with(57, &u32::MAX.to_le_bytes()).unwrap_err().to_string().contains("metadata takes 51539607540 bytes"));
     assert!(with(61, &(-1i32).to_le_bytes()).unwrap_err().to_string().contains("a file of -1 grids"));
     assert!(with(61, &i32::MAX.to_le_bytes()).unwrap_err().to_string().contains("truncated or damaged"));
-    assert!(with(65, &u32::MAX.to_le_bytes()).unwrap_err().to_string().contains("a text takes 4294967295 bytes"));
+    assert!(with(65, &u32::MAX.to_le_bytes()).unwrap_err().to_string().contains("a name of 4294967295 bytes"));
     assert!(with(8, &219u32.to_le_bytes()).unwrap_err().to_string().contains("versions 220 to 225"));
     assert!(with(0, b"x").unwrap_err().to_string().contains("neither an OpenVDB nor a NanoVDB file"));
     // The offset of the grid's end, after its name, type and parent.

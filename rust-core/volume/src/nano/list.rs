@@ -74,7 +74,7 @@ pub(crate) fn list(stream: &mut Stream) -> Result<Listing> {
     for entry in &mut listing.entries {
         // What is wrong with one grid does not spoil the others.
         if let Err(error) = describe(stream, entry) {
-            entry.info.refused = Some(error.to_string());
+            entry.info.refused = Some(error.in_file());
         }
     }
     Ok(listing)

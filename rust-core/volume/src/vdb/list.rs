@@ -116,7 +116,7 @@ fn descriptor(stream: &mut Stream, header: &Header, before: &[Entry]) -> Result<
     stream.limit(end);
     // What is wrong with one grid does not spoil the others.
     if let Err(error) = grid(stream, header, &mut entry, ValueType::named(value_name, halved), &parent, before) {
-        entry.info.refused = Some(error.to_string());
+        entry.info.refused = Some(error.in_file());
         entry.tree = None;
     }
     stream.seek(end)?;
@@ -159,7 +159,7 @@ fn refusal(value_type: &str) -> String {
     if value_type.starts_with("pt") {
         return "a grid of points, not of values".into();
     }
-    format!("grids of {value_type} are not read; float, double, half, vec3s, vec3d, vec3i, bool, mask and whole numbers are")
+    format!("grids of {value_type:.40} are not read; float, double, half, vec3s, vec3d, vec3i, bool, mask and whole numbers are")
 }
 
 /// Reads a tree's masks; gives where the tree ends, if voxels must be gone past, or where the grid does.
