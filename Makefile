@@ -125,6 +125,7 @@ validation: blender
 fuzz:
 	cargo build --release --quiet -p gonio-formats --example fuzz
 	for reader in $(FUZZED); do cargo run --release --quiet -p gonio-formats --example fuzz -- $$reader 600 || exit 1; done
+	cargo run --release --quiet -p gonio-volume --example fuzz -- 600
 
 # The long checks: all luxtest frames, kill tests, other renderers where they can be had, Blender's export timed. Suites whose files have the same names
 # run one after the other.

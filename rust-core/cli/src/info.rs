@@ -1,6 +1,8 @@
 //! `gonio info`.
 
-use super::{arguments::InfoOptions, explain, lamps_in_view, light_numbers, light_words::describe, messages::print, render::stage_options};
+use super::{
+    arguments::InfoOptions, explain, lamps_in_view, light_numbers, light_words::describe, messages::print, render::stage_options, volume,
+};
 use gonio::{
     Diagnostic, Result,
     compile::{CompiledScene, compile},
@@ -11,8 +13,11 @@ use pyo3::prelude::*;
 use serde_json::{Value, json};
 use std::sync::atomic::AtomicBool;
 
-/// Reads the stage, lays it out, and says what would be rendered.
+/// Reads the stage, lays it out, and says what would be rendered; of a volume file, what grids it holds.
 pub(super) fn info(py: Python<'_>, options: &InfoOptions, interrupted: &AtomicBool) -> Result<i32> {
+    if volume::is_volume(&options.stage.stage) {
+        return py.detach(|| volume::info(options));
+    }
     let mut stage_options = stage_options(&options.stage)?;
     // What is wrong is what is asked for here.
     stage_options.lenient = true;

@@ -42,6 +42,7 @@ mod share;
 mod snapshot;
 mod spectrum;
 mod view;
+mod volume;
 
 pub use farm::farm_scene;
 pub use view::{Viewed, view_scene};

@@ -99,6 +99,8 @@ pub(super) enum Command {
     /// Join the parts of a render's samples that 'gonio render --samples A:B --checkpoint PART' wrote, to the bits of one whole render.
     Merge(MergeArguments),
     /// Say what would be rendered: counts, memory, lights with units, what is unsupported.
+    ///
+    /// Of an OpenVDB (.vdb) or NanoVDB (.nvdb) file, say what grids it holds: types, voxels, bounds, memory.
     Info(Box<InfoOptions>),
     /// Compare two EXR files: relative mean squared error and block differences.
     Compare(CompareOptions),
