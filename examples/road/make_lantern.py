@@ -15,8 +15,8 @@ def shape(c: float, gamma: float) -> float:
         return 0.0
     c, g = math.radians(c), math.radians(gamma)
     across = math.sin(c)
-    wings = math.exp(-(((gamma - 64) / 13) ** 2) - ((across - 0.28) / 0.34) ** 2)
-    below = 0.42 * math.exp(-((gamma / 48) ** 2)) * (1 + 0.75 * math.sin(g) * across)
+    wings = math.exp(-(((gamma - 63) / 17) ** 2) - ((across - 0.2) / 0.34) ** 2)
+    below = 0.22 * math.exp(-((gamma / 58) ** 2)) * (1 + 0.75 * math.sin(g) * across)
     return (wings + below) * min(1.0, (85 - gamma) / 12)
 
 

@@ -3,9 +3,19 @@
 #![allow(clippy::print_stdout, reason = "its results go to standard output")]
 
 use gonio_road::{Road, sheet::sheet};
-use std::{error::Error, path::Path};
+use std::{error::Error, path::Path, process::ExitCode};
 
-fn main() -> Result<(), Box<dyn Error>> {
+fn main() -> ExitCode {
+    match run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let path = Path::new(arguments.first().ok_or("the name of a road's file is missing")?);
     let read = Road::read(path)?;

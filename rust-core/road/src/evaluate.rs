@@ -119,7 +119,9 @@ impl Road {
         for surface in [Some(&self.surface), self.wet.as_ref()].into_iter().flatten() {
             if surface.farthest() < self.reach.luminance[1] {
                 let (name, end, reach) = (&surface.name, surface.farthest(), self.reach.luminance[1]);
-                notes.push(format!("{name}: the table ends at tan γ {end}; luminaires beyond it, up to {reach} heights ahead, count for nothing"));
+                notes.push(format!(
+                    "{name}: the table ends at tan γ {end}; luminaires beyond it, up to {reach} heights ahead, count for nothing"
+                ));
             }
         }
         for row in &self.rows {
@@ -127,7 +129,8 @@ impl Road {
             notes.extend(warned.filter(|warning| !notes.contains(warning)).collect::<Vec<_>>());
             let measured = row.goniogram.stated.measurement_tilt;
             if measured != 0.0 {
-                notes.push(format!("{}: measured at a tilt of {measured}°, from which the tilt of {}° is counted", row.luminaire, row.tilt));
+                notes
+                    .push(format!("{}: measured at a tilt of {measured}°, from which the tilt of {}° is counted", row.luminaire, row.tilt));
             }
         }
         notes

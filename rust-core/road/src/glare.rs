@@ -59,9 +59,5 @@ fn scattered(angle: f64, age: f64) -> f64 {
 
 /// The threshold increment in per cent; none on a road that is darker than the formulas hold for.
 pub(crate) fn increment(veiling: f64, average: f64) -> Option<f64> {
-    if average > BRIGHT {
-        Some(95.0 * veiling / average.powf(1.05))
-    } else {
-        (average > DIM).then(|| 65.0 * veiling / average.powf(0.8))
-    }
+    if average > BRIGHT { Some(95.0 * veiling / average.powf(1.05)) } else { (average > DIM).then(|| 65.0 * veiling / average.powf(0.8)) }
 }

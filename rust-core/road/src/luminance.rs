@@ -1,10 +1,6 @@
 //! The luminance of the road as an observer sees it, in cd/m².
 
-use crate::{
-    line::Line,
-    road::{Reach, Standard},
-    surface::Surface,
-};
+use crate::{line::Line, road::Reach, standard::Standard, surface::Surface};
 
 /// Distance of an observer from the field, and height of the eye, in metres.
 pub(crate) const AWAY: f64 = 60.0;

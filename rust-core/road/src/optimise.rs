@@ -1,23 +1,9 @@
 //! The largest spacing that meets what is required.
 
-use crate::{results::Results, road::Road};
-
-/// What may be varied, in metres and degrees, from the least to the greatest.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ranges {
-    /// Spacings of all rows.
-    pub spacing: [f64; 2],
-    /// Heights of all rows; their own where none.
-    pub height: Option<[f64; 2]>,
-    /// Tilts of all rows; their own where none.
-    pub tilt: Option<[f64; 2]>,
-    /// Steps of the first, coarse search.
-    pub spacing_step: f64,
-    /// The same for heights.
-    pub height_step: f64,
-    /// The same for tilts.
-    pub tilt_step: f64,
-}
+use crate::{
+    results::Results,
+    road::{Ranges, Road},
+};
 
 /// What was found.
 #[derive(Clone, Debug, serde::Serialize)]
@@ -55,9 +41,9 @@ struct Search<'a> {
 }
 
 impl Road {
-    /// Looks for the largest spacing within the ranges with which everything that was required is met, first in coarse steps, then about the best in finer
-    /// ones; of equal spacings the lower height and tilt. Gives the road built so, its results and what was found; none without ranges or requirements, or
-    /// where `stopped` says so before the end.
+    /// Looks for the largest spacing within the ranges with which everything that was required is met, first in coarse steps, then about the
+    /// best in finer ones; of equal spacings the lower height and tilt. Gives the road built so, its results and what was found; none without
+    /// ranges or requirements, or where `stopped` says so before the end.
     pub fn optimise(&self, stopped: &dyn Fn() -> bool) -> Option<(Self, Results, Best)> {
         let ranges = self.ranges?;
         let anything = !self.required.is_empty() || self.footpaths.iter().any(|path| !path.required.is_empty());

@@ -13,7 +13,8 @@ pub struct Requirement {
 
 /// Keys of results that may be required.
 pub const KEYS: [&str; 17] = [
-    "l_av", "uo", "ul", "uo_wet", "ti", "eir", "e_av", "e_min", "u0", "e_hs_av", "e_hs_min", "u0_hs", "e_sc_min", "e_v_min", "e_max", "pdi", "aeci",
+    "l_av", "uo", "ul", "uo_wet", "ti", "eir", "e_av", "e_min", "u0", "e_hs_av", "e_hs_min", "u0_hs", "e_sc_min", "e_v_min", "e_max",
+    "pdi", "aeci",
 ];
 /// Keys that paths have.
 pub(crate) const PATH_KEYS: [&str; 9] = ["e_av", "e_min", "u0", "e_hs_av", "e_hs_min", "u0_hs", "e_sc_min", "e_v_min", "e_max"];

@@ -1,10 +1,6 @@
 //! A road as its file describes it.
 
-use crate::{
-    optimise::Ranges,
-    required::Requirement,
-    surface::Surface,
-};
+use crate::{required::Requirement, standard::Standard, surface::Surface};
 use gonio_formats::photometry::Goniogram;
 use std::sync::Arc;
 
@@ -37,16 +33,6 @@ pub struct Road {
     pub periods: Vec<Period>,
     /// What may be varied to meet what is required.
     pub ranges: Option<Ranges>,
-}
-
-/// How values between a table's are found.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Standard {
-    /// EN 13201-3: linear in tables of the surface.
-    #[default]
-    En13201,
-    /// CIE 140: quadratic in tables of the surface.
-    Cie140,
 }
 
 /// How far luminaires are looked for, in mounting heights from the point.
@@ -124,19 +110,26 @@ pub struct Period {
     pub level: f64,
 }
 
+/// What may be varied, in metres and degrees, from the least to the greatest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ranges {
+    /// Spacings of all rows.
+    pub spacing: [f64; 2],
+    /// Heights of all rows; their own where none.
+    pub height: Option<[f64; 2]>,
+    /// Tilts of all rows; their own where none.
+    pub tilt: Option<[f64; 2]>,
+    /// Steps of the first, coarse search.
+    pub spacing_step: f64,
+    /// The same for heights.
+    pub height_step: f64,
+    /// The same for tilts.
+    pub tilt_step: f64,
+}
+
 impl Default for Reach {
     fn default() -> Self {
         Self { luminance: [5.0, 12.0, 5.0], illuminance: 5.0 }
-    }
-}
-
-impl Standard {
-    /// What the norm is called.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::En13201 => "EN 13201",
-            Self::Cie140 => "CIE 140",
-        }
     }
 }
 

@@ -56,7 +56,8 @@ pub fn summary(results: &Results) -> Vec<String> {
 /// Illuminances of an area in a line.
 fn illuminances(of: &Illuminances) -> String {
     format!(
-        "E average {:.2} lx, least {:.2} lx, greatest {:.2} lx, Uo {}; hemispherical average {:.2} lx, Uo {}; least semicylindrical {:.2} lx, least vertical {:.2} lx",
+        "E average {:.2} lx, least {:.2} lx, greatest {:.2} lx, U0 {}; hemispherical average {:.2} lx, U0 {}; \
+         least semicylindrical {:.2} lx, least vertical {:.2} lx",
         of.e_av,
         of.e_min,
         of.e_max,

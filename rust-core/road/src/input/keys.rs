@@ -21,6 +21,9 @@ pub(super) struct Bounds {
     unit: &'static str,
 }
 
+/// Widths of roads and paths.
+pub(super) const WIDE: Bounds = Bounds::above(0.0, 100.0, " m");
+
 impl Bounds {
     /// Above a number, up to another.
     pub(super) const fn above(least: f64, most: f64, unit: &'static str) -> Self {

@@ -1,15 +1,13 @@
 //! `[[footpath]]`, `[required]`, `[[period]]` and `[optimise]`.
 
 use super::{
-    keys::{Bounds, File, Keys},
-    read::WIDE,
+    keys::{Bounds, File, Keys, WIDE},
     rows::{HEIGHTS, SPACINGS, TILTS},
 };
 use crate::{
     error::Result,
-    optimise::Ranges,
     required::{KEYS, PATH_KEYS, Requirement},
-    road::{Footpath, Period},
+    road::{Footpath, Period, Ranges},
 };
 
 /// Values that may be required.
@@ -89,7 +87,9 @@ pub(super) fn ranges(parts: &Keys<'_>, file: &File<'_>) -> Result<Option<Ranges>
     let range = |key, bounds| -> Result<Option<[f64; 2]>> {
         let found = keys.numbers::<2>(key, bounds)?;
         match found {
-            Some([from, to]) if from > to => Err(keys.problem_of(key, &format!("goes from {from} to {to}, expected the smaller number first"))),
+            Some([from, to]) if from > to => {
+                Err(keys.problem_of(key, &format!("goes from {from} to {to}, expected the smaller number first")))
+            }
             _ => Ok(found),
         }
     };

@@ -1,56 +1,21 @@
 //! Reading a road from its TOML file and the files that it names.
 
+mod files;
 mod keys;
 mod lists;
 mod read;
 mod rows;
 
-use crate::{
-    error::{Result, RoadError},
-    road::Road,
-};
-use std::{
-    fs::{File, metadata},
-    io::{Error, Read},
-    path::{Path, PathBuf},
-};
-use keys::Keys;
-
-/// Bytes of the longest file: hundreds of times a luminaire's.
-const LONGEST: u64 = 64 << 20;
+use crate::{error::Result, road::Road};
+use std::path::Path;
 
 impl Road {
     /// Reads a road; files that it names lie relative to it.
     ///
     /// # Errors
-    /// A file that cannot be read, with what the system says; anything in one that has no sensible reading, with the file, its line, and what was expected.
+    /// A file that cannot be read, with what the system says; anything in one that has no sensible reading, with the file, its line, and
+    /// what was expected.
     pub fn read(path: &Path) -> Result<Self> {
-        let bytes = bytes(path)?;
-        read::road(&bytes, path)
+        read::road(&files::bytes(path)?, path)
     }
-}
-
-/// The bytes of an ordinary file: a pipe would be waited for.
-fn bytes(path: &Path) -> Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    let file = metadata(path).and_then(|found| match found.is_file() {
-        true if found.len() > LONGEST => Err(Error::other(format!("more than {LONGEST} bytes"))),
-        true => Ok(File::open(path)?.take(LONGEST)),
-        false => Err(Error::other("not a file")),
-    });
-    let done = file.and_then(|mut file| file.read_to_end(&mut bytes));
-    done.map_err(|source| RoadError::File { path: path.into(), source })?;
-    Ok(bytes)
-}
-
-/// The path and the bytes of a file that a key names, relative to the file that the key stands in.
-fn named(keys: &Keys<'_>, key: &str, name: &str, expected: &str) -> Result<(PathBuf, Vec<u8>)> {
-    let path = keys.path().with_file_name(name);
-    let bytes = bytes(&path).map_err(|error| match error {
-        RoadError::File { path, source } => {
-            keys.problem_of(key, &format!("names {}, which cannot be read: {source}; {expected}", path.display()))
-        }
-        other => other,
-    })?;
-    Ok((path, bytes))
 }

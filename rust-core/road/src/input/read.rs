@@ -1,20 +1,20 @@
 //! The file as a whole, and its `[road]`.
 
 use super::{
-    keys::{Bounds, File, Keys},
-    lists, named, rows,
+    files::named,
+    keys::{Bounds, File, Keys, WIDE},
+    lists, rows,
 };
 use crate::{
     error::{Result, RoadError},
-    road::{Reach, Road, Standard},
+    road::{Reach, Road},
+    standard::Standard,
     surface::{Kind, Surface, Table},
 };
 use gonio_formats::FormatError;
 use std::path::Path;
 use toml::de::DeTable;
 
-/// Lengths in metres that roads do not exceed.
-pub(super) const WIDE: Bounds = Bounds::above(0.0, 100.0, " m");
 /// The most lanes.
 const LANES: u32 = 20;
 /// Mounting heights that luminaires are looked for in.
@@ -55,7 +55,8 @@ pub(super) fn road(bytes: &[u8], path: &Path) -> Result<Road> {
     let own = Keys::new("[road]", &file, own, start);
     own.check(&KEYS)?;
     let carriageway_width = own.needed("carriageway_width", WIDE)?;
-    let lanes = own.count("lanes", LANES)?.ok_or_else(|| own.problem_of("lanes", "is missing, expected how many lanes the carriageway has"))?;
+    let lanes =
+        own.count("lanes", LANES)?.ok_or_else(|| own.problem_of("lanes", "is missing, expected how many lanes the carriageway has"))?;
     let strip = Bounds::above(0.0, carriageway_width, " m, the carriageway's width");
     Ok(Road {
         carriageway_width,
@@ -91,10 +92,10 @@ fn surface(own: &Keys<'_>) -> Result<Surface> {
         }
         return Ok(Surface::lambert(own.needed("reflectance", SHARES)?));
     }
+    let surface = table(own, "surface", name)?;
     if own.get("reflectance").is_some() {
         return Err(own.problem_of("reflectance", "is for surface = \"lambert\", expected q0 or nothing beside an r-table"));
     }
-    let surface = table(own, "surface", name)?;
     let Some(q0) = own.number("q0", SHARES)? else { return Ok(surface) };
     match surface.kind {
         Kind::Table(table) if surface.figures.q0 > 0.0 => Ok(Surface::table(name, table.times(q0 / surface.figures.q0))),

@@ -1,8 +1,8 @@
 //! `[[row]]`.
 
 use super::{
+    files::named,
     keys::{Bounds, File, Keys},
-    named,
 };
 use crate::{
     error::{Result, RoadError},

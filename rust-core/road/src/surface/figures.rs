@@ -1,7 +1,7 @@
 //! The two numbers that describe a surface.
 
 use super::Kind;
-use crate::{results::SurfaceFigures, road::Standard};
+use crate::{results::SurfaceFigures, standard::Standard};
 
 /// The rectangle of luminaires that the mean is taken over (CIE 144), in mounting heights: towards the observer, away from the observer, to a side.
 const BEHIND: f64 = 4.0;

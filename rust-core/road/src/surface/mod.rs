@@ -6,7 +6,7 @@ mod table;
 
 pub use table::Table;
 
-use crate::{results::SurfaceFigures, road::Standard};
+use crate::{results::SurfaceFigures, standard::Standard};
 use std::f64::consts::PI;
 
 /// A surface seen at 1° by a driver.
@@ -48,7 +48,7 @@ impl Surface {
         Self { name: name.to_owned(), kind, figures }
     }
 
-    /// The reduced luminance coefficient r = q cos³γ in 1/sr, for light from the angle β in degrees off the driver's way and tan γ off the vertical.
+    /// The reduced luminance coefficient r = q cos³γ in 1/sr, for light from β degrees off the driver's way and tan γ off the vertical.
     pub fn reduced(&self, beta: f64, tangent: f64, standard: Standard) -> f64 {
         self.kind.reduced(beta, tangent, standard)
     }

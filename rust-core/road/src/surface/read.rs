@@ -19,8 +19,8 @@ struct Line {
 impl Table {
     /// Reads the text of a table: a line of β in degrees, then lines of tan γ and r · 10⁴ for each β.
     ///
-    /// Blanks, tabs, commas or semicolons stand between numbers, `#` begins a comment, a word or a number may stand in the corner. A cell without a value is
-    /// written as `-` and counts as 0.
+    /// Blanks, tabs, commas or semicolons stand between numbers, `#` begins a comment, a word or a number may stand in the corner. A cell
+    /// without a value is written as `-` and counts as 0.
     ///
     /// # Errors
     /// Anything else, with the line.
@@ -30,8 +30,8 @@ impl Table {
         let head = lines.next().ok_or_else(|| FormatError::whole("no numbers: expected an r-table, a line of β and lines of tan γ"))?;
         let mut head = parsed(head, true)?;
         let rows = lines.map(|line| parsed(line, false)).collect::<Result<Vec<_>, _>>()?;
-        // A number in the corner stands for nothing.
-        if rows.first().is_some_and(|row| row.values.len() == head.values.len()) {
+        // A number in the corner stands for nothing: β begins after it.
+        if head.values.get(1) == Some(&0.0) {
             head.values.remove(0);
         }
         check_axis(&head, "β")?;

@@ -1,6 +1,6 @@
 //! r-tables: the reduced luminance coefficient by two angles.
 
-use crate::road::Standard;
+use crate::standard::Standard;
 
 /// A table of the reduced luminance coefficient.
 #[derive(Clone, Debug, PartialEq)]

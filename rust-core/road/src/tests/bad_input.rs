@@ -3,9 +3,32 @@
 use crate::{Road, Table};
 use std::{fs, path::PathBuf};
 
-const ROAD: &str = "[road]\ncarriageway_width = 7\nlanes = 2\nsurface = \"lambert\"\nreflectance = 0.2\n\n[[row]]\nluminaire = \"lamp.ies\"\nspacing = 30\n\
-    height = 8\nside = \"right\"\n\n[[footpath]]\nside = \"left\"\nwidth = 2\nrequired = { e_av = 5 }\n\n[required]\nl_av = 0.5\n\n[[period]]\nhours = 4000\n\n\
-    [optimise]\nspacing = [20, 40]\n";
+const ROAD: &str = r#"[road]
+carriageway_width = 7
+lanes = 2
+surface = "lambert"
+reflectance = 0.2
+
+[[row]]
+luminaire = "lamp.ies"
+spacing = 30
+height = 8
+side = "right"
+
+[[footpath]]
+side = "left"
+width = 2
+required = { e_av = 5 }
+
+[required]
+l_av = 0.5
+
+[[period]]
+hours = 4000
+
+[optimise]
+spacing = [20, 40]
+"#;
 const LAMP: &str = "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 10\n0 90\n0\n100 100\n";
 
 /// A folder with the luminaire, and the path of a road in it.

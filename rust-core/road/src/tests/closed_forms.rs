@@ -14,10 +14,10 @@ fn one_isotropic_lamp() {
     let lines = Line::all(&road);
     let at = |measurand| illuminance(&lines, &road.reach, [6.0, 4.0], measurand) / 0.8;
     // The lamp stands 6 m behind, 3 m to the right, 8 m and 6.5 m above.
-    let (flat, square) = (45.0_f64.sqrt(), 45.0 + 64.0);
+    let (flat, square) = (45.0_f64.sqrt(), 45.0_f64 + 64.0);
     close(at(Measurand::Horizontal), 1000.0 * 8.0 / square.powf(1.5), 1e-12);
     close(at(Measurand::Hemispherical), 1000.0 * (1.0 + 8.0 / square.sqrt()) / 4.0 / square, 1e-12);
-    let square = 45.0 + 6.5 * 6.5;
+    let square = 45.0_f64 + 6.5 * 6.5;
     for (facing, towards) in [(1.0, -6.0), (-1.0, 6.0)] {
         close(at(Measurand::Semicylindrical(facing)), 1000.0 * (flat + towards) / PI / square.powf(1.5), 1e-12);
     }

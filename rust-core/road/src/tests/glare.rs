@@ -11,9 +11,9 @@ use crate::{
 fn one_lamp_veils_by_the_formula() {
     let far = crate::Row { spacing: 500.0, overhang: 1.75, ..row(luminaire(|_, _| 1000.0), Side::Right) };
     let road = road(vec![far]);
-    let field = road.evaluate().field;
+    let field = crate::Field { along: 1, ..road.evaluate().field };
     let [found, x] = veiling(&Line::all(&road), &field, 1.75, 23.0);
-    // The nearest of the observer's places, 2.75 × 6.5 m before the lamp; that 500 m ahead of it is out of reach.
+    // The observer's first place, 2.75 × 6.5 m before the lamp; the next lamp is out of reach.
     close(x, -17.875, 1e-12);
     let angle = (6.5_f64 / 17.875).atan() + 1.0_f64.to_radians();
     let lux = 1000.0 * angle.cos() / (17.875_f64.powi(2) + 6.5 * 6.5);

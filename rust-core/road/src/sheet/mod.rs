@@ -1,5 +1,8 @@
 //! A road's results as drawings in SVG: the plan, and lines of equal illuminance and luminance.
 
+mod frame;
+mod isolines;
+
 use crate::{
     contours::Sampled,
     illuminance::{Measurand, illuminance},
@@ -9,61 +12,20 @@ use crate::{
     road::Road,
     text,
 };
+use frame::{Frame, LEFT, WIDTH};
 use gonio_formats::{Anchor, Canvas, short_number};
+use isolines::{columns, isolines, rows};
 
-/// Width of a drawing, its margins left and right, and the height of its title and its foot, in pixels.
-const WIDTH: f64 = 900.0;
-const LEFT: f64 = 70.0;
-const RIGHT: f64 = 110.0;
-const HEAD: f64 = 46.0;
-const FOOT: f64 = 34.0;
-/// Pixels of a metre across, at least: a long field is drawn stretched.
-const LEAST_SCALE: f64 = 10.0;
 /// Height of a line of text.
 const LINE: f64 = 20.0;
 /// Metres beside the outermost of what is drawn.
 const BESIDE: f64 = 1.0;
-/// Samples of a map along and, at least, across; metres between those across.
-const ALONG: usize = 80;
-const ACROSS: usize = 13;
-const STEP: f64 = 0.5;
 
 const ROAD: &str = "#e3e5e8";
 const PATH: &str = "#f2ecdf";
 const INK: &str = "#30353b";
 const SOFT: &str = "#8a929c";
 const LAMP: &str = "#c9820a";
-/// Colours of lines from low to high.
-const RAMP: [&str; 8] = ["#2c3e91", "#1f6fb4", "#118f9c", "#1d9a5b", "#7a9a12", "#c28a00", "#d2591c", "#b51f2e"];
-
-/// Where metres come to lie on a canvas.
-struct Frame {
-    top: f64,
-    x: [f64; 2],
-    y: [f64; 2],
-    scale: [f64; 2],
-}
-
-impl Frame {
-    fn new(results: &Results, y: [f64; 2], top: f64) -> Self {
-        let x = [results.field.start, results.field.start + results.field.length];
-        let along = (WIDTH - LEFT - RIGHT) / (x[1] - x[0]);
-        Self { top, x, y, scale: [along, along.clamp(LEAST_SCALE, 40.0)] }
-    }
-
-    fn at(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        [LEFT + (x - self.x[0]) * self.scale[0], self.top + HEAD + (self.y[1] - y) * self.scale[1]]
-    }
-
-    fn height(&self) -> f64 {
-        HEAD + FOOT + (self.y[1] - self.y[0]) * self.scale[1]
-    }
-
-    fn band(&self, canvas: &mut Canvas, [low, high]: [f64; 2], colour: &str) {
-        let corners = [[self.x[0], low], [self.x[1], low], [self.x[1], high], [self.x[0], high]];
-        canvas.area(&corners.map(|corner| self.at(corner)), colour);
-    }
-}
 
 /// The plan: carriageway, paths, luminaires, observers' lanes and points.
 pub fn plan(road: &Road, results: &Results) -> String {
@@ -200,38 +162,4 @@ fn draw_isoluminance(canvas: &mut Canvas, frame: &Frame, road: &Road, results: &
     let y = (f64::from(lane) - 0.5) * road.lane_width();
     let seen: Seen<'_> = road.seen(&lines, &road.surface, [results.field.start - AWAY, y]);
     isolines(canvas, frame, &Sampled::new(columns(frame), rows(frame), |at| seen.luminance(at)[0]), "cd/m²");
-}
-
-/// Where a map is sampled along the road.
-fn columns(frame: &Frame) -> Vec<f64> {
-    ends(frame.x, ALONG)
-}
-
-/// Where a map is sampled across the road.
-fn rows(frame: &Frame) -> Vec<f64> {
-    let [low, high] = frame.y;
-    ends(frame.y, (((high - low) / STEP) as usize + 1).max(ACROSS))
-}
-
-/// So many places from one end to the other.
-fn ends([from, to]: [f64; 2], count: usize) -> Vec<f64> {
-    (0..count).map(|index| from + (to - from) * index as f64 / (count - 1) as f64).collect()
-}
-
-/// Lines of round levels with a legend.
-fn isolines(canvas: &mut Canvas, frame: &Frame, sampled: &Sampled, unit: &str) {
-    let levels = sampled.levels();
-    let colour = |index: usize| RAMP[(index * (RAMP.len() - 1)) / levels.len().saturating_sub(1).max(1)];
-    for (index, level) in levels.iter().enumerate() {
-        let pieces = sampled.pieces(*level);
-        for [a, b] in &pieces {
-            canvas.line(frame.at(*a), frame.at(*b), colour(index));
-        }
-        if let Some([[x, y], _]) = pieces.get(pieces.len() * (index + 1) / (levels.len() + 1)) {
-            canvas.text(frame.at([*x, *y]), Anchor::Middle, &short_number(*level));
-        }
-        let y = frame.top + HEAD + 6.0 + 15.0 * (levels.len() - 1 - index) as f64;
-        canvas.curve(&[[WIDTH - RIGHT + 12.0, y], [WIDTH - RIGHT + 34.0, y]], colour(index), "");
-        canvas.text([WIDTH - RIGHT + 40.0, y + 4.0], Anchor::Start, &format!("{} {unit}", short_number(*level)));
-    }
 }
