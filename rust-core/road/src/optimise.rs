@@ -46,9 +46,8 @@ impl Road {
     /// ranges or requirements, or where `stopped` says so before the end.
     pub fn optimise(&self, stopped: &dyn Fn() -> bool) -> Option<(Self, Results, Best)> {
         let ranges = self.ranges?;
-        let anything = !self.required.is_empty() || self.footpaths.iter().any(|path| !path.required.is_empty());
         let mut search = Search { road: self, ranges, best: None, tried: 0, stopped };
-        if !anything {
+        if !self.requires_anything() {
             return None;
         }
         search.coarse();

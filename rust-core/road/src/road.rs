@@ -146,6 +146,11 @@ impl Side {
 }
 
 impl Road {
+    /// Whether any value is required, of the carriageway or of a path.
+    pub fn requires_anything(&self) -> bool {
+        !self.required.is_empty() || self.footpaths.iter().any(|path| !path.required.is_empty())
+    }
+
     /// Width of one lane.
     pub fn lane_width(&self) -> f64 {
         self.carriageway_width / f64::from(self.lanes)

@@ -58,7 +58,7 @@ pub(super) fn road(bytes: &[u8], path: &Path) -> Result<Road> {
     let lanes =
         own.count("lanes", LANES)?.ok_or_else(|| own.problem_of("lanes", "is missing, expected how many lanes the carriageway has"))?;
     let strip = Bounds::above(0.0, carriageway_width, " m, the carriageway's width");
-    Ok(Road {
+    let road = Road {
         carriageway_width,
         lanes,
         surface: surface(&own)?,
@@ -72,7 +72,11 @@ pub(super) fn road(bytes: &[u8], path: &Path) -> Result<Road> {
         required: lists::required(&parts, &file)?,
         periods: lists::periods(&parts, &file)?,
         ranges: lists::ranges(&parts, &file)?,
-    })
+    };
+    if road.ranges.is_some() && !road.requires_anything() {
+        return Err(parts.problem_of("optimise", "has nothing to meet, expected values under [required] or in a footpath's required"));
+    }
+    Ok(road)
 }
 
 fn reach(own: &Keys<'_>) -> Result<Reach> {
