@@ -51,6 +51,7 @@ COMMANDS = {
     "bsdf --lobes": ("svg", "bsdf", "absent.xml", "--lobes", "{path}"),
     "photometry": ("ies", "photometry", "absent.ldt", "--convert", "{path}"),
     "photometry --polar": ("svg", "photometry", "absent.ldt", "--polar", "{path}"),
+    "road": ("svg", "road", "absent.toml", "-o", "{path}"),
     "relight": ("exr", "relight", "absent.exr", "-o", "{path}"),
     "compare": ("png", "compare", "absent.exr", "other.exr", "--difference", "{path}"),
     "falsecolor": ("png", "falsecolor", "absent.exr", "-o", "{path}"),

@@ -36,12 +36,13 @@ fn lines_with(folder: &str, needle: &str) -> Vec<String> {
 }
 
 /// Crates of the engine from the ground up, and which others of gonio each may use.
-const CRATES: [(&str, &[&str]); 15] = [
+const CRATES: [(&str, &[&str]); 16] = [
     ("simd", &[]),
     ("formats", &[]),
     ("spectrum", &["formats"]),
     ("volume", &[]),
     ("mesh", &[]),
+    ("road", &["formats"]),
     ("accel", &["simd"]),
     ("image", &["simd"]),
     ("table", &["simd"]),

@@ -37,6 +37,7 @@ mod radiance;
 mod relight;
 mod render;
 mod report;
+mod road;
 mod sequence;
 mod share;
 mod snapshot;
@@ -106,6 +107,7 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
         Command::Map(options) => map::map(py, &options, &INTERRUPTED),
         Command::Falsecolor(options) => py.detach(|| falsecolor::falsecolor(&options)),
         Command::Report(options) => report::report(py, &options, &INTERRUPTED),
+        Command::Road(options) => py.detach(|| road::road(&options, &INTERRUPTED)),
         Command::Glare(options) => py.detach(|| glare::glare(&options)),
         Command::Bench(options) => py.detach(|| bench::bench(&options, &INTERRUPTED)),
         Command::Completion(options) => completion::completion(&options),

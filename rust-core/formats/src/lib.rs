@@ -18,4 +18,4 @@ mod svg;
 
 pub use error::{FormatError, Place};
 pub use short::short_number;
-pub use svg::escape;
+pub use svg::{Anchor, Canvas, escape};

@@ -1,24 +1,27 @@
-//! The little of SVG that the diagrams of goniograms and of measured materials need.
+//! The little of SVG that diagrams need: of goniograms, of measured materials, of roads.
 
 use std::fmt::Write;
 
-/// A drawing that grows.
+/// An SVG document that grows; places are in pixels from the upper left corner, texts are escaped.
 #[derive(Debug)]
-pub(crate) struct Canvas {
+pub struct Canvas {
     text: String,
 }
 
 /// Where a text stands against its point.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Anchor {
+pub enum Anchor {
+    /// To the right of it.
     Start,
+    /// Centred on it.
     Middle,
+    /// To the left of it.
     End,
 }
 
 impl Canvas {
     /// A white page of a size in pixels.
-    pub(crate) fn new(width: f64, height: f64) -> Self {
+    pub fn new(width: f64, height: f64) -> Self {
         let text = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" \
              font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"{width}\" height=\"{height}\" fill=\"white\"/>\n"
@@ -31,32 +34,36 @@ impl Canvas {
         let _ = writeln!(self.text, "{element}");
     }
 
-    pub(crate) fn line(&mut self, [x0, y0]: [f64; 2], [x1, y1]: [f64; 2], colour: &str) {
+    /// A thin line.
+    pub fn line(&mut self, [x0, y0]: [f64; 2], [x1, y1]: [f64; 2], colour: &str) {
         self.add(format_args!("<line x1=\"{x0:.2}\" y1=\"{y0:.2}\" x2=\"{x1:.2}\" y2=\"{y1:.2}\" stroke=\"{colour}\"/>"));
     }
 
     /// A thin line through points.
-    pub(crate) fn path(&mut self, points: &[[f64; 2]], colour: &str) {
+    pub fn path(&mut self, points: &[[f64; 2]], colour: &str) {
         self.add(format_args!("<polyline points=\"{}\" fill=\"none\" stroke=\"{colour}\"/>", joined(points)));
     }
 
-    pub(crate) fn circle(&mut self, [x, y]: [f64; 2], radius: f64, colour: &str) {
+    /// A circle's outline.
+    pub fn circle(&mut self, [x, y]: [f64; 2], radius: f64, colour: &str) {
         self.add(format_args!("<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius:.2}\" fill=\"none\" stroke=\"{colour}\"/>"));
     }
 
     /// A line through points; `dashes` as in `stroke-dasharray`, empty for none.
-    pub(crate) fn curve(&mut self, points: &[[f64; 2]], colour: &str, dashes: &str) {
+    pub fn curve(&mut self, points: &[[f64; 2]], colour: &str, dashes: &str) {
         let points = joined(points);
         self.add(format_args!(
             "<polyline points=\"{points}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"2\" stroke-dasharray=\"{dashes}\"/>"
         ));
     }
 
-    pub(crate) fn area(&mut self, points: &[[f64; 2]], colour: &str) {
+    /// A filled polygon.
+    pub fn area(&mut self, points: &[[f64; 2]], colour: &str) {
         self.add(format_args!("<polygon points=\"{}\" fill=\"{colour}\"/>", joined(points)));
     }
 
-    pub(crate) fn text(&mut self, [x, y]: [f64; 2], anchor: Anchor, text: &str) {
+    /// A line of text.
+    pub fn text(&mut self, [x, y]: [f64; 2], anchor: Anchor, text: &str) {
         let anchor = match anchor {
             Anchor::Start => "start",
             Anchor::Middle => "middle",
@@ -66,7 +73,8 @@ impl Canvas {
         self.add(format_args!("<text x=\"{x:.2}\" y=\"{y:.2}\" text-anchor=\"{anchor}\">{text}</text>"));
     }
 
-    pub(crate) fn finish(mut self) -> String {
+    /// The document.
+    pub fn finish(mut self) -> String {
         self.text.push_str("</svg>\n");
         self.text
     }

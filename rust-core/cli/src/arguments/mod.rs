@@ -19,6 +19,7 @@ mod picture;
 mod render;
 mod report;
 mod spectrum;
+mod road;
 mod stage;
 mod texture;
 mod view;
@@ -42,6 +43,7 @@ pub(super) use picture::{CompareOptions, RelightOptions};
 pub(super) use render::{FilterArgument, HeadlightArgument, RenderOptions};
 pub(super) use report::ReportOptions;
 pub(super) use spectrum::SpectrumOptions;
+pub(super) use road::RoadOptions;
 pub(super) use stage::{ComplexityArgument, StageArguments};
 pub(super) use texture::TextureArguments;
 pub(super) use view::{ShowArgument, ViewOptions};
@@ -55,6 +57,7 @@ use map::MAP_EXAMPLES;
 use measure::MEASURE_EXAMPLES;
 use report::REPORT_EXAMPLES;
 use spectrum::SPECTRUM_EXAMPLES;
+use road::ROAD_EXAMPLES;
 use view::VIEW_EXAMPLES;
 
 /// What the process's status says.
@@ -149,6 +152,12 @@ pub(super) enum Command {
     /// EULUMDAT file; the other lights stand in the schedule with what is known of them.
     #[command(after_long_help = REPORT_EXAMPLES)]
     Report(Box<ReportOptions>),
+    /// Calculate a road's lighting as EN 13201-3 and CIE 140 do: Lav, Uo, Ul, TI, EIR and illuminances, from luminaires' files and a TOML file.
+    ///
+    /// Says whether the values that the file requires are met, and looks for the largest spacing of luminaires that meets them. It is no certificate of a
+    /// lighting class.
+    #[command(after_long_help = ROAD_EXAMPLES)]
+    Road(RoadOptions),
     /// Rate glare in a picture of luminances, a fisheye or a perspective: UGR and DGP, and the sources that cause it.
     Glare(GlareArguments),
     /// Measure every stage of rendering at every SIMD level against one lane.

@@ -5,9 +5,9 @@ use pyo3::prelude::*;
 
 /// The page's title and the lines below it, each with its name.
 #[derive(Debug)]
-pub(super) struct Head {
-    pub(super) title: String,
-    pub(super) facts: Vec<(&'static str, String)>,
+pub(crate) struct Head {
+    pub(crate) title: String,
+    pub(crate) facts: Vec<(&'static str, String)>,
 }
 
 impl Head {

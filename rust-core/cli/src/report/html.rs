@@ -8,12 +8,12 @@ const STYLE: &str = include_str!("style.css");
 
 /// A page that grows; texts that are handed in stand in it as they are, whatever signs they hold.
 #[derive(Debug)]
-pub(super) struct Page {
+pub(crate) struct Page {
     text: String,
 }
 
 impl Page {
-    pub(super) fn new(Head { title, facts }: &Head) -> Self {
+    pub(crate) fn new(Head { title, facts }: &Head) -> Self {
         let title = escaped(title);
         let head = format!("<meta charset=\"utf-8\">\n<title>{title}</title>\n<style>\n{STYLE}</style>");
         let facts: String = facts.iter().map(|(name, fact)| format!("<dt>{}</dt><dd>{}</dd>\n", escaped(name), escaped(fact))).collect();
@@ -25,29 +25,29 @@ impl Page {
         self.text.push_str(&format!("<{tag}>{content}</{tag}>\n"));
     }
 
-    pub(super) fn section(&mut self, title: &str) {
+    pub(crate) fn section(&mut self, title: &str) {
         self.element("h2", &escaped(title));
     }
 
-    pub(super) fn part(&mut self, title: &str) {
+    pub(crate) fn part(&mut self, title: &str) {
         self.element("h3", &escaped(title));
     }
 
-    pub(super) fn paragraph(&mut self, text: &str) {
+    pub(crate) fn paragraph(&mut self, text: &str) {
         self.element("p", &escaped(text));
     }
 
-    pub(super) fn note(&mut self, text: &str) {
+    pub(crate) fn note(&mut self, text: &str) {
         self.text.push_str(&format!("<p class=\"note\">{}</p>\n", escaped(text)));
     }
 
-    pub(super) fn list(&mut self, lines: &[String]) {
+    pub(crate) fn list(&mut self, lines: &[String]) {
         let items: String = lines.iter().map(|line| format!("<li>{}</li>\n", escaped(line))).collect();
         self.element("ul", &format!("\n{items}"));
     }
 
     /// A table with its columns' names above and, unless it is empty, a row of totals below.
-    pub(super) fn table(&mut self, names: &[&str], rows: &[Vec<String>], totals: &[String]) {
+    pub(crate) fn table(&mut self, names: &[&str], rows: &[Vec<String>], totals: &[String]) {
         let row = |tag: &str, cells: &mut dyn Iterator<Item = &str>| {
             let cells: String = cells.map(|cell| format!("<{tag}>{}</{tag}>", escaped(cell))).collect();
             format!("<tr>{cells}</tr>\n")
@@ -59,12 +59,12 @@ impl Page {
     }
 
     /// A picture's file in the page itself; `format` as in `png`.
-    pub(super) fn picture(&mut self, format: &str, bytes: &[u8], caption: &str) {
+    pub(crate) fn picture(&mut self, format: &str, bytes: &[u8], caption: &str) {
         self.figure("", format, bytes, caption);
     }
 
     /// The same over the whole width of the page.
-    pub(super) fn wide_picture(&mut self, format: &str, bytes: &[u8], caption: &str) {
+    pub(crate) fn wide_picture(&mut self, format: &str, bytes: &[u8], caption: &str) {
         self.figure(" class=\"grid\"", format, bytes, caption);
     }
 
@@ -75,11 +75,17 @@ impl Page {
     }
 
     /// A drawing as `gonio_formats` makes it, whose own texts are escaped already.
-    pub(super) fn drawing(&mut self, svg: &str, caption: &str) {
+    pub(crate) fn drawing(&mut self, svg: &str, caption: &str) {
         self.element("figure", &format!("{svg}<figcaption>{}</figcaption>", escaped(caption)));
     }
 
-    pub(super) fn finish(mut self) -> String {
+    /// The same over the whole width of the page.
+    pub(crate) fn wide_drawing(&mut self, svg: &str, caption: &str) {
+        let caption = escaped(caption);
+        self.text.push_str(&format!("<figure class=\"grid\">{svg}<figcaption>{caption}</figcaption></figure>\n"));
+    }
+
+    pub(crate) fn finish(mut self) -> String {
         self.text.push_str("</body>\n</html>\n");
         self.text
     }

@@ -9,6 +9,9 @@ mod pictures;
 mod power;
 mod schedule;
 
+pub(super) use head::Head;
+pub(super) use html::Page;
+
 use super::{
     arguments::{ReportOptions, ScaleArguments},
     daylight,
@@ -29,8 +32,6 @@ use gonio::{
     scene::Integrator,
 };
 use gonio_usd::{Loaded, SampleTime, Stage, camera::choose, meter::axes};
-use head::Head;
-use html::Page;
 use pyo3::prelude::*;
 use schedule::Schedule;
 use std::sync::{Arc, atomic::AtomicBool};

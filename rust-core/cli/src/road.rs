@@ -1,0 +1,122 @@
+//! `gonio road`.
+
+use super::{
+    arguments::RoadOptions,
+    drawing,
+    file::{check_ending, check_targets, ending, put},
+    messages::print,
+    report::{Head, Page},
+};
+use gonio::{Error, Result};
+use gonio_road::{Best, Results, Road, RoadError, Row, sheet, text};
+use serde_json::{Value, json};
+use std::{
+    path::Path,
+    sync::atomic::{AtomicBool, Ordering},
+};
+
+/// Endings of a sheet's file.
+const ENDINGS: &[&str] = &["svg", "png", "html", "htm"];
+
+/// Reads the road, calculates it, and writes what was asked for.
+pub(super) fn road(options: &RoadOptions, interrupted: &AtomicBool) -> Result<i32> {
+    if let Some(output) = &options.output {
+        check_ending("output", output, ENDINGS)?;
+        check_targets([output])?;
+    }
+    let read = Road::read(&options.file).map_err(told)?;
+    let stopped = || interrupted.load(Ordering::Relaxed);
+    let found = read.optimise(&stopped);
+    if stopped() {
+        return Err(Error::Cancelled);
+    }
+    let (road, results, best) = match found {
+        Some((road, results, best)) => (road, results, Some(best)),
+        None => {
+            let results = read.evaluate();
+            (read, results, None)
+        }
+    };
+    if let Some(output) = &options.output {
+        put(output, &drawn(options, output, &road, &results)?)?;
+    }
+    if options.json {
+        print(&as_json(options, &results, best.as_ref()).to_string());
+    } else {
+        best.iter().for_each(|best| print(&text::optimised(best)));
+        text::lines(&results).iter().for_each(|line| print(line));
+    }
+    Ok(0)
+}
+
+/// A road's error as the command line's.
+fn told(error: RoadError) -> Error {
+    match error {
+        RoadError::Content { path, error } => Error::in_file(path, &error),
+        RoadError::File { path, source } => Error::io(path, source),
+    }
+}
+
+fn as_json(options: &RoadOptions, results: &Results, best: Option<&Best>) -> Value {
+    let mut value = json!(results);
+    if let Value::Object(object) = &mut value {
+        object.insert("file".into(), json!(options.file.to_string_lossy()));
+        object.insert("optimised".into(), json!(best));
+    }
+    value
+}
+
+/// The bytes of the sheet's file.
+fn drawn(options: &RoadOptions, output: &Path, road: &Road, results: &Results) -> Result<Vec<u8>> {
+    let name = options.file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let title = options.title.clone().unwrap_or(name);
+    match ending(output).as_str() {
+        "html" | "htm" => Ok(page(options, title, road, results).into_bytes()),
+        _ => drawing::encoded(sheet::sheet(road, results, &title), output),
+    }
+}
+
+/// The sheet as a page with tables.
+fn page(options: &RoadOptions, title: String, road: &Road, results: &Results) -> String {
+    let facts = vec![
+        ("Road", format!("{} m wide, {} lanes", road.carriageway_width, road.lanes)),
+        ("Surface", results.surface.name.clone()),
+        ("Model", options.file.file_name().unwrap_or_default().to_string_lossy().into_owned()),
+        ("Calculated by", format!("gonio {}, conventions of {}", env!("CARGO_PKG_VERSION"), results.standard)),
+    ];
+    let mut page = Page::new(&Head { title, facts });
+    page.section("Results");
+    page.list(&text::summary(results));
+    page.table(&text::OBSERVER_COLUMNS, &text::observer_rows(results), &[]);
+    let required = text::requirements(results);
+    if !required.is_empty() {
+        page.section("Required");
+        page.list(&required);
+    }
+    page.section("Luminaires");
+    let names = ["file", "side", "spacing, m", "height, m", "overhang, m", "tilt, °", "maintenance factor", "power, W"];
+    page.table(&names, &road.rows.iter().map(row).collect::<Vec<_>>(), &[]);
+    page.section("Plan and lines of equal value");
+    page.wide_drawing(&sheet::plan(road, results), "The field between two luminaires");
+    page.wide_drawing(&sheet::isolux(road, results), "Horizontal illuminance on the ground, in lx");
+    for seen in &results.observers {
+        let caption = format!("Luminance for the observer in lane {}, in cd/m²", seen.lane);
+        page.wide_drawing(&sheet::isoluminance(road, results, seen.lane), &caption);
+    }
+    page.section("All values");
+    page.list(&text::lines(results));
+    page.finish()
+}
+
+fn row(row: &Row) -> Vec<String> {
+    vec![
+        row.luminaire.clone(),
+        row.side.name().into(),
+        format!("{:.2}", row.spacing),
+        format!("{:.2}", row.height),
+        format!("{:.2}", row.overhang),
+        format!("{:.1}", row.tilt),
+        format!("{:.2}", row.maintenance_factor),
+        text::number(row.power, 1),
+    ]
+}
