@@ -14,6 +14,7 @@ mod build;
 mod cancelled;
 mod hit_callback;
 mod intersect;
+mod packet_hits;
 mod ray;
 #[cfg(test)]
 mod tests;

@@ -42,7 +42,8 @@ impl Source for Vec<Bounds> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Item(pub(crate) u32);
 
-const PAIR: u32 = (MAX_INDEX + 1) as u32;
+/// Above all numbers.
+const PAIR: u32 = (MAX_INDEX as u32 + 1).next_power_of_two();
 
 impl Item {
     pub(crate) fn is_pair(self) -> bool {

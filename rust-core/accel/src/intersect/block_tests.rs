@@ -63,7 +63,7 @@ fn count_hits<K: Lanes8>(lanes: K, tests: &BlockTests) -> u32 {
     let mut count = 0;
     for (ray, first) in tests.rays.iter().zip(&tests.first) {
         for block in tests.blocks[*first..].iter().take(LEAVES) {
-            count += lanes.triangles(block, ray, f32::MAX, &mut hits).count_ones();
+            count += lanes.leaf(block, ray, f32::MAX, &mut hits).count_ones();
         }
     }
     count

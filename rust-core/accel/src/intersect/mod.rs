@@ -3,8 +3,11 @@
 pub(crate) mod block_tests;
 pub(crate) mod joint;
 pub(crate) mod lanes8;
+pub(crate) mod leaf;
 pub(crate) mod line_ray;
 mod octahedral;
+pub(crate) mod packet_ray;
+mod packet_triangles;
 pub(crate) mod point_block;
 pub(crate) mod prepared;
 pub(crate) mod scalar;

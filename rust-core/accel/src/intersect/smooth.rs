@@ -12,6 +12,7 @@
 //! A turn is a number from −2 to 2 in place of an angle ([`turn`]). Packed are two numbers in 15 bits each. The reader is `geometry/smooth.rs`
 //! of `gonio-transport`.
 
+use super::leaf::Leaf;
 use super::line_ray::{END_CAP, START_CAP, SmoothHits};
 use super::octahedral::{from_octahedral, octahedral};
 use super::point_block::{PointBlock, intersect_discs, intersect_spheres};
@@ -20,7 +21,9 @@ use super::segment_block::Segments;
 use super::segment_leaves::SegmentLeaves;
 use super::segments::{intersect_ribbons, intersect_tubes};
 use super::smooth_scalar;
-use crate::ray::NONE;
+use crate::hit_callback::HitCallback;
+use crate::ray::{Hit, NONE};
+use crate::tree::instance::Owner;
 use crate::tree::node::WIDTH;
 use fearless_simd::Simd;
 use gonio_simd::prefetch;
@@ -93,23 +96,8 @@ pub(crate) enum SmoothLeaf<'a> {
 }
 
 impl SmoothLeaf<'_> {
-    /// The lanes that a ray meets with `ray.t_min < t <= t_max`, as a mask.
-    #[inline(never)]
-    pub(crate) fn intersect<S: Simd>(self, simd: S, ray: &PreparedRay, t_max: f32, hits: &mut SmoothHits) -> u32 {
-        simd.vectorize(
-            #[inline(always)]
-            || match self {
-                SmoothLeaf::Nothing => 0,
-                SmoothLeaf::Tubes(leaf) => intersect_tubes(simd, leaf, ray, t_max, hits),
-                SmoothLeaf::Ribbons(leaf) => intersect_ribbons(simd, leaf, ray, t_max, hits),
-                SmoothLeaf::Spheres(block) => intersect_spheres(simd, block, ray, t_max, hits),
-                SmoothLeaf::Discs(block) => intersect_discs(simd, block, ray, t_max, hits),
-            },
-        )
-    }
-
     /// The distance where a ray that enters the shape of a lane at `t` leaves it; of what is flat `t`.
-    pub(crate) fn leaves(self, lane: usize, ray: &PreparedRay, t: f32) -> f32 {
+    fn leaves(self, lane: usize, ray: &PreparedRay, t: f32) -> f32 {
         match self {
             SmoothLeaf::Tubes(leaf) => smooth_scalar::leaves(leaf, lane, ray).max(t),
             _ => t,
@@ -117,7 +105,7 @@ impl SmoothLeaf<'_> {
     }
 
     /// Which primitive a lane has hit, and where on it.
-    pub(crate) fn describe(self, lane: usize, ray: &PreparedRay, hits: &SmoothHits) -> LaneHit {
+    fn describe(self, lane: usize, ray: &PreparedRay, hits: &SmoothHits) -> LaneHit {
         let lane = lane % WIDTH;
         let out = [hits.out[0][lane], hits.out[1][lane], hits.out[2][lane]];
         match self {
@@ -140,6 +128,40 @@ impl SmoothLeaf<'_> {
                 (block.primitives[lane], u, v)
             }
         }
+    }
+}
+
+impl Leaf for SmoothLeaf<'_> {
+    type Found = SmoothHits;
+
+    #[inline(always)]
+    fn intersect_scalar(self, ray: &PreparedRay, t_max: f32, found: &mut SmoothHits) -> u32 {
+        smooth_scalar::intersect(self, ray, t_max, found)
+    }
+
+    #[inline(never)]
+    fn intersect<S: Simd>(self, simd: S, ray: &PreparedRay, t_max: f32, found: &mut SmoothHits) -> u32 {
+        simd.vectorize(
+            #[inline(always)]
+            || match self {
+                SmoothLeaf::Nothing => 0,
+                SmoothLeaf::Tubes(leaf) => intersect_tubes(simd, leaf, ray, t_max, found),
+                SmoothLeaf::Ribbons(leaf) => intersect_ribbons(simd, leaf, ray, t_max, found),
+                SmoothLeaf::Spheres(block) => intersect_spheres(simd, block, ray, t_max, found),
+                SmoothLeaf::Discs(block) => intersect_discs(simd, block, ray, t_max, found),
+            },
+        )
+    }
+
+    #[inline(always)]
+    fn report<C: HitCallback>(self, lane: usize, ray: &PreparedRay, found: &SmoothHits, owner: Owner, callback: &mut C) -> bool {
+        let t = found.t[lane];
+        // What an earlier lane of this leaf covers needs no description.
+        if C::ORDERED && t > callback.t_max() {
+            return false;
+        }
+        let (primitive, u, v) = self.describe(lane, ray, found);
+        callback.add_smooth(Hit { t, u, v, primitive, instance: owner.id }, || self.leaves(lane, ray, t), owner.transparent)
     }
 }
 

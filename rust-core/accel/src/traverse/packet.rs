@@ -1,6 +1,6 @@
 //! Traversal of one tree with sixteen coherent rays.
 
-use super::packet_ray::{Group, PACKET, PacketRays};
+use crate::intersect::packet_ray::{Group, PACKET, PacketRays};
 use crate::tree::node::{ChildRef, Node, STACK, WIDTH};
 use fearless_simd::{f32x8, f32x16, prelude::*, u32x8};
 use gonio_simd::Sort8;

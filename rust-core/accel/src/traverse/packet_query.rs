@@ -1,8 +1,10 @@
 //! The queries over a batch whose consecutive groups of sixteen rays are coherent.
 
 use super::packet::EMPTY_PACKET_STACK;
-use super::packet_ray::{PACKET, PacketRays};
-use super::packet_scene::{PacketHits, PacketStacks, traverse_scene_packet};
+use super::packet_scene::{PacketStacks, traverse_scene_packet};
+use crate::hit_callback::{Any, Nearest};
+use crate::intersect::packet_ray::{PACKET, PacketRays};
+use crate::packet_hits::PacketHits;
 use crate::ray::{Hits, RayBatch, RayMask};
 use crate::tree::node::STACK;
 use crate::tree::tlas::Tlas;
@@ -87,7 +89,7 @@ fn first_hit_packets<S: Simd>(simd: S, scene: &Tlas, rays: &RayBatch, stacks: &m
     for first in (0..rays.len()).step_by(PACKET) {
         let packet = load(simd, &rays, first);
         let mut found = PacketHits::misses(packet.t_max);
-        traverse_scene_packet::<S, false>(simd, scene, &packet.rays, (&packet.masks, &packet.times), stacks, &mut found);
+        traverse_scene_packet::<S, Nearest>(simd, scene, &packet.rays, (&packet.masks, &packet.times), stacks, &mut found);
         let range = first..first + packet.n;
         hits.t[range.clone()].copy_from_slice(&found.t[..packet.n]);
         hits.u[range.clone()].copy_from_slice(&found.u[..packet.n]);
@@ -103,7 +105,7 @@ fn occluded_packets<S: Simd>(simd: S, scene: &Tlas, rays: &RayBatch, stacks: &mu
     for first in (0..rays.len()).step_by(PACKET) {
         let packet = load(simd, &rays, first);
         let mut found = PacketHits::misses(packet.t_max);
-        traverse_scene_packet::<S, true>(simd, scene, &packet.rays, (&packet.masks, &packet.times), stacks, &mut found);
+        traverse_scene_packet::<S, Any>(simd, scene, &packet.rays, (&packet.masks, &packet.times), stacks, &mut found);
         for (lane, out) in out[first..first + packet.n].iter_mut().enumerate() {
             // Lanes that were of no use from the start have not been hit either.
             *out = u8::from(packet.rays.lanes & (1 << lane) != 0 && found.t[lane] == -f32::INFINITY);

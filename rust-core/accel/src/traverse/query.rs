@@ -1,7 +1,8 @@
 //! The queries of a batch of rays, and the loops of single rays.
 
 use super::single::EMPTY_STACK;
-use super::single_scene::{SceneStacks, traverse_instance, traverse_scene};
+use super::single_scene::{SceneStacks, traverse_scene};
+use super::single_within::traverse_instance;
 use super::stream::{FEWEST_RAYS, stream, with_stacks};
 use super::stream_tuner::{Mode, Part};
 use crate::blockers::{AnyHitLinked, Blockers};

@@ -5,11 +5,11 @@
 //! without a branch on its outcome. Each goes to the queue of its next step, and memory fetches what that step reads. Queues within the cache are
 //! the idea of Barringer and Akenine-Möller: Dynamic Ray Stream Traversal, ACM TOG 33(4), 2014. There rays are grouped by node, here by step.
 
-use super::stream_ray::{StreamRay, TraversalStack};
+use super::stream_ray::{END, NEXT, STEPS, StreamRay, TraversalStack};
 use super::stream_tuner::{Numbers, Part};
 use crate::hit_callback::RayQuery;
 use crate::ray::RayBatch;
-use crate::tree::node::{KINDS, Kind};
+use crate::tree::node::Kind;
 use crate::tree::tlas::Tlas;
 use fearless_simd::prelude::*;
 use std::cell::RefCell;
@@ -23,19 +23,19 @@ const BEHIND: usize = 8;
 /// Fewer rays than this are traced one by one.
 pub(crate) const FEWEST_RAYS: usize = 2 * STREAM_WIDTH;
 
-/// A queue of rays for each kind of step, a bit a ray.
-struct StepQueues([u32; KINDS]);
+/// A queue of rays for each step, a bit a ray.
+struct StepQueues([u32; STEPS]);
 
 impl StepQueues {
     #[inline(always)]
-    fn add(&mut self, kind: usize, ray: usize) {
-        self.0[kind % KINDS] |= 1 << ray;
+    fn add(&mut self, step: usize, ray: usize) {
+        self.0[step % STEPS] |= 1 << ray;
     }
 
     /// Takes all rays out of a queue.
     #[inline(always)]
-    fn take(&mut self, kind: Kind) -> StepQueue {
-        StepQueue(std::mem::take(&mut self.0[kind as usize]))
+    fn take(&mut self, step: usize) -> StepQueue {
+        StepQueue(std::mem::take(&mut self.0[step]))
     }
 }
 
@@ -72,11 +72,11 @@ pub(crate) fn with_stacks(run: impl FnOnce(&mut StreamStacks)) {
 pub(crate) fn stream<S: Simd, Q: RayQuery>(simd: S, scene: &Tlas, rays: &RayBatch, part: Part, stacks: &mut StreamStacks, query: &mut Q) {
     let rays = &rays.same_length();
     let mut streamed: [StreamRay<Q::Callback>; STREAM_WIDTH] = std::array::from_fn(|_| StreamRay::new(scene, query.callback()));
-    let mut queues = StepQueues([0; KINDS]);
-    queues.0[Kind::End as usize] = u32::MAX >> (u32::BITS as usize - STREAM_WIDTH);
+    let mut queues = StepQueues([0; STEPS]);
+    queues.0[END] = u32::MAX >> (u32::BITS as usize - STREAM_WIDTH);
     let (mut numbers, mut under_way) = (part.of(rays.len()), STREAM_WIDTH);
     while under_way > 0 {
-        for place in queues.take(Kind::End) {
+        for place in queues.take(END) {
             let ray = &mut streamed[place];
             ray.end(query);
             if start(simd, rays, &mut numbers, ray, &mut stacks[place], query) {
@@ -85,23 +85,23 @@ pub(crate) fn stream<S: Simd, Q: RayQuery>(simd: S, scene: &Tlas, rays: &RayBatc
                 under_way -= 1;
             }
         }
-        for place in queues.take(Kind::Instance) {
+        for place in queues.take(Kind::Instance as usize) {
             queues.add(streamed[place].instance(simd, scene), place);
         }
-        for place in queues.take(Kind::Triangles) {
+        for place in queues.take(Kind::Triangles as usize) {
             queues.add(streamed[place].triangles(simd), place);
         }
-        for place in queues.take(Kind::WorldTriangles) {
+        for place in queues.take(Kind::WorldTriangles as usize) {
             queues.add(streamed[place].world_triangles(simd, scene), place);
         }
-        for place in queues.take(Kind::Smooth) {
+        for place in queues.take(Kind::Smooth as usize) {
             queues.add(streamed[place].smooth(simd), place);
         }
-        for place in queues.take(Kind::Next) {
+        for place in queues.take(NEXT) {
             queues.add(streamed[place].pop(&stacks[place]), place);
         }
         // Nodes of the scene and of meshes together: a queue that ends sooner than foreseen costs more than what they differ by.
-        let inner = StepQueue(queues.take(Kind::Inner).0 | queues.take(Kind::MeshInner).0);
+        let inner = StepQueue(queues.take(Kind::Inner as usize).0 | queues.take(Kind::MeshInner as usize).0);
         let mut tested = StepQueue(0);
         for (before, place) in inner.enumerate() {
             streamed[place].inner(simd, &mut stacks[place]);

@@ -1,17 +1,16 @@
 //! A ray in a ray stream: its traversal state and its steps. Each step returns the number of the next queue, so no step branches on it.
 
 use super::single::EMPTY_STACK;
-use super::single_scene::traverse_mesh;
+use super::single_mesh::traverse_mesh;
 use crate::hit_callback::{HitCallback, RayQuery};
-use crate::intersect::lanes8::Lanes8;
-use crate::intersect::line_ray::SmoothHits;
+use crate::intersect::leaf::{Leaf, LeafVisitor, RayAtLeaf};
 use crate::intersect::prepared::PreparedRay;
 use crate::intersect::smooth::Smooth;
-use crate::intersect::triangle_block::{BlockHits, TriangleBlock};
+use crate::intersect::triangle_block::TriangleBlock;
 use crate::intersect::wide::{Wide, intersect_boxes};
-use crate::ray::{Hit, NONE, RayBatch, RayMask};
+use crate::ray::{NONE, RayBatch, RayMask};
 use crate::tree::blas::Blas;
-use crate::tree::instance::{Geometry, InstanceRecord, MapKind};
+use crate::tree::instance::{InstanceRecord, Owner};
 use crate::tree::node::{ChildRef, KINDS, Kind, MAX_DEPTH, Node, WIDTH};
 use crate::tree::tlas::Tlas;
 use fearless_simd::{f32x4, prelude::*, u32x8};
@@ -25,9 +24,25 @@ const STACK_SIZE: usize = 2 * (MAX_DEPTH * (WIDTH - 1) + 1) + 1 + WIDTH;
 const ROOM: usize = (4096 + 2048 + 64) / size_of::<u32>();
 const _: () = assert!(STACK_SIZE <= ROOM);
 
+/// The step of a ray whose stack is empty, or whose search is over.
+pub(crate) const END: usize = KINDS;
+
+/// The step of a ray that takes the next entry of its stack.
+pub(crate) const NEXT: usize = KINDS + 1;
+
+/// More than there are steps: those at children of each kind, and the two above. Four bits tell them apart.
+pub(crate) const STEPS: usize = 16;
+
 /// Bytes of what a reference of each kind refers to.
-const SIZES: [usize; KINDS] = [size_of::<Node>(), size_of::<InstanceRecord>(), 0, BLOCK, size_of::<Node>(), BLOCK, 0, 0];
-const BLOCK: usize = size_of::<TriangleBlock>();
+const SIZES: [usize; STEPS] = {
+    let mut sizes = [0; STEPS];
+    sizes[Kind::Inner as usize] = size_of::<Node>();
+    sizes[Kind::MeshInner as usize] = size_of::<Node>();
+    sizes[Kind::Instance as usize] = size_of::<InstanceRecord>();
+    sizes[Kind::WorldTriangles as usize] = size_of::<TriangleBlock>();
+    sizes[Kind::Triangles as usize] = size_of::<TriangleBlock>();
+    sizes
+};
 
 /// Bits of a distance that the slot takes while children are sorted.
 const SLOT_BITS: u32 = WIDTH as u32 - 1;
@@ -54,25 +69,23 @@ impl TraversalStack {
 /// A ray in a stream.
 pub(crate) struct StreamRay<'a, C: HitCallback> {
     /// In the world, and in the space of the mesh it is in.
-    rays: [PreparedRay; 2],
+    pub(super) rays: [PreparedRay; 2],
     nodes: [&'a [Node]; 2],
     blocks: [&'a [TriangleBlock]; 2],
     /// Leaves of the curves or points it is in.
     smooth: &'a Smooth,
     /// Where in memory the children of a kind begin, for fetching them.
-    addresses: [usize; KINDS],
-    callback: C,
+    addresses: [usize; STEPS],
+    pub(super) callback: C,
     /// Nothing beyond is of interest: the bits of the distance, and all of a slot.
     farthest: u32,
     /// Entries on the traversal stack.
     stacked: usize,
-    current: ChildRef,
+    pub(super) current: ChildRef,
     /// The instance that the ray is in.
-    instance: u32,
-    /// Whether that one may let shadow rays pass.
-    transparent: bool,
-    mask: RayMask,
-    time: f32,
+    pub(super) owner: Owner,
+    pub(super) mask: RayMask,
+    pub(super) time: f32,
     /// The ray's number in its batch, [`NONE`] without a ray.
     number: u32,
     /// Whether a hit ended the search.
@@ -82,7 +95,7 @@ pub(crate) struct StreamRay<'a, C: HitCallback> {
 impl<'a, C: HitCallback> StreamRay<'a, C> {
     /// Without a ray.
     pub(crate) fn new(scene: &'a Tlas, callback: C) -> Self {
-        let mut addresses = [0; KINDS];
+        let mut addresses = [0; STEPS];
         addresses[Kind::Inner as usize] = scene.nodes.as_ptr().addr();
         addresses[Kind::Instance as usize] = scene.records.as_ptr().addr();
         addresses[Kind::WorldTriangles as usize] = scene.blocks.as_ptr().addr();
@@ -96,8 +109,7 @@ impl<'a, C: HitCallback> StreamRay<'a, C> {
             farthest: 0,
             stacked: 0,
             current: ChildRef::ROOT,
-            instance: NONE,
-            transparent: false,
+            owner: Owner { id: NONE, mask: 0, transparent: false },
             mask: 0,
             time: 0.5,
             number: NONE,
@@ -125,7 +137,7 @@ impl<'a, C: HitCallback> StreamRay<'a, C> {
         self.time = rays.time_of(i);
         self.shorten();
         stack.near[0] = 0;
-        stack.child[0] = ChildRef::new(Kind::End, 0).0;
+        stack.child[0] = ChildRef::END.0;
         self.stacked = 1;
         self.current = ChildRef::ROOT;
         true
@@ -153,7 +165,7 @@ impl<'a, C: HitCallback> StreamRay<'a, C> {
             self.stacked -= 1;
             if !C::ORDERED || stack.near[self.stacked] <= self.farthest {
                 self.current = ChildRef(stack.child[self.stacked]);
-                let kind = self.current.kind();
+                let kind = self.current.kind_or_end() % STEPS;
                 // Other rays take their steps before this one takes its next.
                 prefetch_at(self.addresses[kind].wrapping_add(SIZES[kind] * self.current.index()), size_of::<Node>());
                 return kind;
@@ -163,7 +175,7 @@ impl<'a, C: HitCallback> StreamRay<'a, C> {
 
     /// To the root of a mesh's tree.
     #[inline(always)]
-    fn enter(&mut self, mesh: &'a Blas) -> usize {
+    pub(super) fn enter(&mut self, mesh: &'a Blas) -> usize {
         self.nodes[1] = &mesh.nodes;
         self.blocks[1] = &mesh.blocks;
         self.smooth = &mesh.smooth;
@@ -175,24 +187,31 @@ impl<'a, C: HitCallback> StreamRay<'a, C> {
 
     /// Through a mesh that deforms, to the end: its triangles are not those in memory.
     #[inline(always)]
-    fn pass_deforming<S: Simd>(&mut self, simd: S, mesh: &Blas, record: &InstanceRecord) -> usize {
-        let (ray, at) = (self.rays[1], (record, self.time));
+    pub(super) fn pass_deforming<S: Simd>(&mut self, simd: S, mesh: &Blas) -> usize {
+        let (ray, at) = (self.rays[1], (self.owner, self.time));
         let mut stack = EMPTY_STACK;
         let callback = &mut self.callback;
-        self.ended = simd.vectorize(
+        let ended = simd.vectorize(
             #[inline(always)]
             || traverse_mesh(Wide(simd), mesh, ChildRef::ROOT, &ray, at, &mut stack, callback),
         );
-        self.shorten();
-        if self.ended { Kind::End as usize } else { Kind::Next as usize }
+        self.go_on(ended)
     }
 
-    /// Takes a hit; true when it ends the search.
+    /// Tests a leaf with its image in a space.
     #[inline(always)]
-    fn add(&mut self, hit: Hit, transparent: bool) -> bool {
-        self.ended = self.callback.add(hit, transparent);
+    pub(super) fn test<S: Simd, L: Leaf>(&mut self, simd: S, space: usize, leaf: L) -> usize {
+        let at_leaf = RayAtLeaf { lanes: Wide(simd), ray: &self.rays[space], owner: self.owner, callback: &mut self.callback };
+        let ended = at_leaf.visit(leaf);
+        self.go_on(ended)
+    }
+
+    /// After a search that may have ended.
+    #[inline(always)]
+    pub(super) fn go_on(&mut self, ended: bool) -> usize {
+        self.ended = ended;
         self.shorten();
-        self.ended
+        if ended { END } else { NEXT }
     }
 
     /// The step at a node.
@@ -217,82 +236,12 @@ impl<'a, C: HitCallback> StreamRay<'a, C> {
     #[inline(always)]
     pub(crate) fn triangles<S: Simd>(&mut self, simd: S) -> usize {
         let space = self.current.space();
-        let block = &self.blocks[space][self.current.index()];
-        let mut hits = BlockHits::default();
-        let mut mask = Wide(simd).triangles(block, &self.rays[space], self.callback.t_max(), &mut hits);
-        while mask != 0 {
-            let lane = mask.trailing_zeros() as usize % WIDTH;
-            mask &= mask - 1;
-            let [t, u, v] = [hits.t[lane], hits.u[lane], hits.v[lane]];
-            if self.add(Hit { t, u, v, primitive: block.primitives[lane], instance: self.instance }, self.transparent) {
-                return Kind::End as usize;
-            }
-        }
-        Kind::Next as usize
+        self.test(simd, space, &self.blocks[space][self.current.index()])
     }
 
     /// The step at a block of pieces of curves or of points.
     #[inline(always)]
     pub(crate) fn smooth<S: Simd>(&mut self, simd: S) -> usize {
-        let (leaf, ray) = (self.smooth.leaf(self.current.index()), self.rays[1]);
-        let mut hits = SmoothHits::default();
-        let mut mask = leaf.intersect(simd, &ray, self.callback.t_max(), &mut hits);
-        while mask != 0 {
-            let lane = mask.trailing_zeros() as usize % WIDTH;
-            mask &= mask - 1;
-            let (primitive, u, v) = leaf.describe(lane, &ray, &hits);
-            let hit = Hit { t: hits.t[lane], u, v, primitive, instance: self.instance };
-            self.ended = self.callback.add_smooth(hit, || leaf.leaves(lane, &ray, hit.t), self.transparent);
-            self.shorten();
-            if self.ended {
-                return Kind::End as usize;
-            }
-        }
-        Kind::Next as usize
-    }
-
-    /// The step at a block of triangles in world space.
-    #[inline(always)]
-    pub(crate) fn world_triangles<S: Simd>(&mut self, simd: S, scene: &Tlas) -> usize {
-        let owner = scene.owners[self.current.index()];
-        if owner.mask & self.mask == 0 {
-            return Kind::Next as usize;
-        }
-        (self.instance, self.transparent) = (owner.id, owner.transparent);
-        self.triangles(simd)
-    }
-
-    /// The step at an instance.
-    #[inline(always)]
-    pub(crate) fn instance<S: Simd>(&mut self, simd: S, scene: &'a Tlas) -> usize {
-        let record = &scene.records[self.current.index()];
-        if record.mask & self.mask == 0 {
-            return Kind::Next as usize;
-        }
-        (self.instance, self.transparent) = (record.id, record.transparent);
-        let ([ray, image], map, t_max) = (&mut self.rays, &record.world_to_object, self.callback.t_max());
-        match record.geometry.get() {
-            Geometry::Mesh(index) => {
-                let may_hit = match record.map {
-                    MapKind::Translation | MapKind::Identity => image.shift(simd, ray, map.translation(simd), t_max),
-                    MapKind::General => image.move_by(simd, ray, map, t_max),
-                    MapKind::Moving => match scene.moving(record.id).enter(self.time, ray, t_max) {
-                        Some(map) => image.move_by(simd, ray, &map, t_max),
-                        None => false,
-                    },
-                };
-                let mesh = &*scene.meshes[index as usize];
-                match (may_hit, mesh.is_still()) {
-                    (false, _) => Kind::Next as usize,
-                    (true, true) => self.enter(mesh),
-                    (true, false) => self.pass_deforming(simd, mesh, record),
-                }
-            }
-            Geometry::Shape(shape) => {
-                self.ended = record.intersect_shape(shape, ray.origin, ray.direction, ray.t_min, &mut self.callback);
-                self.shorten();
-                if self.ended { Kind::End as usize } else { Kind::Next as usize }
-            }
-        }
+        self.test(simd, 1, self.smooth.leaf(self.current.index()))
     }
 }

@@ -11,7 +11,6 @@ use crate::cancelled::Cancelled;
 use crate::intersect::smooth::Smooth;
 use crate::intersect::triangle_block::TriangleBlock;
 use glam::Vec3A;
-use gonio_simd::prefetch;
 use obvhs::aabb::Aabb;
 use std::sync::atomic::AtomicBool;
 
@@ -86,18 +85,6 @@ impl BlasMemory {
 }
 
 impl Blas {
-    /// Has memory fetch a child of a node.
-    #[inline(always)]
-    pub(crate) fn fetch(&self, child: ChildRef) {
-        if child.is_inner() {
-            prefetch(&self.nodes, child.index());
-        } else if child.is(Kind::Triangles) {
-            prefetch(&self.blocks, child.index());
-        } else {
-            self.smooth.fetch(child.index());
-        }
-    }
-
     /// Builds the tree of a mesh: points `positions[n][3]` and triangles `triangles[m][3]` of point numbers.
     ///
     /// A triangle without area, or with a point that is missing, not finite, or beyond 1e12, is left out: no ray hits it. Runs in the current rayon pool.

@@ -3,6 +3,7 @@
 pub(crate) mod blas;
 pub(crate) mod deforming;
 pub(crate) mod instance;
+mod leaf_kinds;
 mod loose_lights;
 pub(crate) mod moving;
 pub(crate) mod moving_smooth;

@@ -16,7 +16,7 @@ pub(crate) const STACK: usize = 512;
 #[repr(transparent)]
 pub(crate) struct ChildRef(pub(crate) u32);
 
-/// Kinds of children.
+/// Kinds of children. Those from 4 on lie in a mesh; 2 and 6 are free.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
 pub(crate) enum Kind {
@@ -24,16 +24,12 @@ pub(crate) enum Kind {
     Inner = 0,
     /// One instance of the scene.
     Instance = 1,
-    /// The end of a ray: the stack is empty.
-    End = 2,
     /// A block of triangles of the scene, in world space.
     WorldTriangles = 3,
     /// A node of a mesh, as in a stream, whose stacks hold nodes of the scene as well.
     MeshInner = 4,
     /// A block of triangles of a mesh.
     Triangles = 5,
-    /// The next entry of the stack.
-    Next = 6,
     /// A block of pieces of curves, or of points, of a geometry that has no triangles.
     Smooth = 7,
 }
@@ -48,8 +44,11 @@ impl ChildRef {
     /// The root of every tree.
     pub(crate) const ROOT: ChildRef = ChildRef(0);
 
+    /// What lies below all entries of a traversal stack: a value that no child has, as its index is too large.
+    pub(crate) const END: ChildRef = ChildRef(u32::MAX);
+
     pub(crate) fn new(kind: Kind, index: usize) -> Self {
-        debug_assert!(index <= INDEX_MASK as usize);
+        debug_assert!(index <= MAX_INDEX);
         ChildRef(((kind as u32) << KIND_SHIFT) | index as u32)
     }
 
@@ -60,13 +59,13 @@ impl ChildRef {
 
     #[inline(always)]
     pub(crate) fn is(self, kind: Kind) -> bool {
-        self.kind() == kind as usize
+        self.0 >> KIND_SHIFT == kind as u32
     }
 
-    /// A number below [`KINDS`].
+    /// The number of its kind, [`KINDS`] for the end of a stack: the carry of its index, so that no branch asks.
     #[inline(always)]
-    pub(crate) fn kind(self) -> usize {
-        (self.0 >> KIND_SHIFT) as usize % KINDS
+    pub(crate) fn kind_or_end(self) -> usize {
+        ((u64::from(self.0) + 1) >> KIND_SHIFT) as usize
     }
 
     /// 1 in a mesh, else 0.
@@ -87,8 +86,8 @@ impl ChildRef {
     }
 }
 
-/// The most leaf blocks or nodes a tree can address.
-pub(crate) const MAX_INDEX: usize = INDEX_MASK as usize;
+/// The most leaf blocks or nodes a tree can address; one more is the index of [`ChildRef::END`].
+pub(crate) const MAX_INDEX: usize = INDEX_MASK as usize - 1;
 
 /// Eight boxes and what is in them; 256 bytes, four cache lines.
 ///
@@ -181,3 +180,20 @@ pub(crate) const ROUNDING_PAD: f32 = 8.0 / (1u32 << 24) as f32;
 
 /// Coordinates beyond this (in metres) are left out of the trees, so that no product in the tests overflows.
 pub(crate) const LARGEST_COORDINATE: f32 = 1e12;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_child_is_the_end_of_a_stack() {
+        for kind in [Kind::Inner, Kind::Instance, Kind::WorldTriangles, Kind::MeshInner, Kind::Triangles, Kind::Smooth] {
+            for index in [0, 1, MAX_INDEX] {
+                let child = ChildRef::new(kind, index);
+                assert!(child != ChildRef::END && child.is(kind) && child.index() == index);
+                assert_eq!(child.kind_or_end(), kind as usize);
+            }
+        }
+        assert_eq!(ChildRef::END.kind_or_end(), KINDS);
+    }
+}
