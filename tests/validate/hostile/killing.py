@@ -18,7 +18,7 @@ MOMENTS = (0.08, 0.2, 0.32, 0.44, 0.56, 0.66, 0.76, 0.86, 0.93, 0.98)
 SIGNALS = ("SIGKILL", "SIGTERM", "SIGINT")
 INTERRUPTED = 130
 # Longest that one takes to end, seconds; what is being written is written.
-LONGEST_END = 120
+LONGEST_END = 300
 
 
 def heard():
@@ -65,6 +65,24 @@ def wait_for_session(session):
     while any(is_alive(path, session) for path in Path("/proc").glob("[0-9]*/stat")):
         assert time.monotonic() < end, "a child goes on"
         time.sleep(0.005)
+
+
+def child_of(process):
+    """Waits until a command has a child that renders; gives its number. How long that takes depends on what else runs."""
+    end, children = time.monotonic() + LONGEST_END, Path(f"/proc/{process.pid}/task/{process.pid}/children")
+    while not (numbers := children.read_text().split()):
+        assert process.poll() is None and time.monotonic() < end, "it has no child"
+        time.sleep(0.05)
+    (child,) = map(int, numbers)
+    while is_starting(child):
+        assert process.poll() is None and time.monotonic() < end, "its child does not begin"
+        time.sleep(0.05)
+    return child
+
+
+def is_starting(child):
+    """Whether a process has not yet a thread beside its first: renders have."""
+    return len(list(Path(f"/proc/{child}/task").glob("[0-9]*"))) < 2
 
 
 def is_alive(path, session):

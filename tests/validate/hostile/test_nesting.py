@@ -7,10 +7,10 @@ import pictures
 import pytest
 from bounds import judged, limited
 
-pytestmark = [pytest.mark.validate, pytest.mark.timeout(700)]
+pytestmark = [pytest.mark.validate, pytest.mark.timeout(1900)]
 
 # Of the clock; `bounds` limits the time of the processor.
-SECONDS = 600
+SECONDS = 1800
 # What may be said beside a picture, bytes: what is wrong a hundred thousand times is not told as often.
 MOST_SAID = 200_000
 ALL = [*nests.HIERARCHIES, *nests.LAYERS, *nests.RELATIONSHIPS, *nests.INSTANCES, *nests.SUBSETS, *graphs.GRAPHS]
