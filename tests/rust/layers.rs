@@ -149,6 +149,7 @@ fn colour_becomes_light_by_doors_alone() {
             "light/src/emit/body.rs",
             "light/src/row.rs",
             "transport/src/tables/material.rs",
+            "transport/src/tables/media.rs",
             "transport/src/tables/photons.rs",
             "transport/src/tables/ray_table.rs"
         ]

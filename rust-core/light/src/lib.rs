@@ -51,11 +51,12 @@ mod texture;
 mod tree;
 mod triangle;
 mod vector;
+mod way;
 
 #[cfg(test)]
 mod tests;
 
-pub use along::{LightAlong, LightWay};
+pub use along::LightAlong;
 pub use blackbody::blackbody_rgb;
 pub use context::LightSampleContext;
 pub use emit::{AIMED, EmissionSampler, EmittedRay};
@@ -74,3 +75,4 @@ pub use shaded::TrianglePoint;
 pub use size::size_factor;
 pub use table::LightTable;
 pub use tree::{Arrival, LightCache};
+pub use way::LightWay;

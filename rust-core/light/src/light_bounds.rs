@@ -2,9 +2,9 @@
 //!
 //! pbrt calls it `LightBounds` as well (Physically Based Rendering, 4th edition, section 12.6.3).
 
-use super::along::LightWay;
 use super::light_kind::LightKind;
 use super::row::{Reader, field, flag};
+use super::way::LightWay;
 use gonio_simd::{F, Lanes, M, U, Vec3};
 
 /// A light is never thought weaker than this share by the receiver's orientation, because surfaces may let light through.

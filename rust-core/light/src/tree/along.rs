@@ -2,9 +2,9 @@
 
 use super::node::{Below, Node};
 use super::{Drawn, LightTree, TOP, WIDTH, draw};
-use crate::along::LightWay;
 use crate::light_bounds::LightBounds;
 use crate::row::ROW;
+use crate::way::LightWay;
 use gonio_simd::{F, Lanes, M, U};
 
 impl LightTree {

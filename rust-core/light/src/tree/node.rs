@@ -1,9 +1,9 @@
 //! A node of the light tree in eight words, and the importance of its lights at a point, on lanes.
 
 use super::bound::{Bound, Cone};
-use crate::along::LightWay;
 use crate::light_bounds::{EMITTER_FLOOR, lifted};
 use crate::vector::narrow;
+use crate::way::LightWay;
 use gonio_simd::{F, Lanes, M, One, U, Vec3};
 
 /// Values of a node: centre (3), half the box's edges, strength, axis, cosines, and what is below.

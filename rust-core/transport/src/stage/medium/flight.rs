@@ -1,6 +1,6 @@
 //! Free flights: where paths scatter before what they would hit, drawn by the transmittance of one component of light, weighed over all of them.
 
-use super::MediumContext;
+use super::context::MediumContext;
 use super::way::Way;
 use crate::state::paths::Paths;
 use gonio_accel::{Hits, NONE};

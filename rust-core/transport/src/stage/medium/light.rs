@@ -4,7 +4,7 @@
 //! the way. Kulla and Fajardo,
 //! Importance Sampling Techniques for Path Tracing in Participating Media (2012).
 
-use super::MediumContext;
+use super::context::MediumContext;
 use super::scatter::{flags, light_context};
 use super::way::Way;
 use crate::accumulate::deposit::{Contribution, Deposits, code_of_found};

@@ -3,6 +3,7 @@
 //! The light that media send along rays is added (`shine`), a light is sampled for a place of each way (`light`), and it is drawn where paths scatter
 //! before what they would meet (`flight`, `scatter`). All of it in one pass over the rays that are in something.
 
+mod context;
 mod flight;
 mod light;
 mod scatter;
@@ -13,29 +14,10 @@ use crate::accumulate::deposit::Deposits;
 use crate::state::nearest::NearestHits;
 use crate::state::paths::Paths;
 use crate::state::queue::Queues;
-use crate::state::sample::SampleContext;
-use crate::tables::Tables;
-use crate::tables::transport::Transport;
-use gonio_camera::sampler::dimension;
-use gonio_simd::{F, Lanes, U, dispatch};
+use gonio_simd::{Lanes, dispatch};
 use way::Way;
 
-/// What the stage reads.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct MediumContext<'a> {
-    pub(crate) tables: &'a Tables,
-    pub(crate) transport: &'a Transport,
-    pub(crate) sample: &'a SampleContext<'a>,
-}
-
-impl MediumContext<'_> {
-    /// A pair of random numbers of some paths for a use within this bounce.
-    #[inline(always)]
-    fn pair<L: Lanes>(&self, l: L, slot: U<L>, within: u32) -> [F<L>; 2] {
-        let first = dimension::MEDIA + self.sample.depth * dimension::MEDIUM;
-        self.sample.sampler.pair(l, self.sample.index(l, slot), first + within)
-    }
-}
+pub(crate) use context::MediumContext;
 
 /// Takes camera paths through the media between them and what they hit: those that scatter before hit nothing.
 pub(crate) fn pass(

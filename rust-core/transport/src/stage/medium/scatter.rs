@@ -1,6 +1,6 @@
 //! Paths that media scatter: the phase function gives their directions.
 
-use super::MediumContext;
+use super::context::MediumContext;
 use super::flight::Flight;
 use super::way::Way;
 use crate::accumulate::add::{add, add_rgb};

@@ -1,6 +1,6 @@
 //! Light that media send along the ways of paths.
 
-use super::MediumContext;
+use super::context::MediumContext;
 use super::way::Way;
 use crate::accumulate::deposit::{Contribution, Deposits, Source, code_of_found};
 use crate::accumulate::expression_sums::with_state;

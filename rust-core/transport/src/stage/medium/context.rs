@@ -1,0 +1,24 @@
+//! What the stage of media reads.
+
+use crate::state::sample::SampleContext;
+use crate::tables::Tables;
+use crate::tables::transport::Transport;
+use gonio_camera::sampler::dimension;
+use gonio_simd::{F, Lanes, U};
+
+/// What the stage reads.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct MediumContext<'a> {
+    pub(crate) tables: &'a Tables,
+    pub(crate) transport: &'a Transport,
+    pub(crate) sample: &'a SampleContext<'a>,
+}
+
+impl MediumContext<'_> {
+    /// A pair of random numbers of some paths for a use within this bounce.
+    #[inline(always)]
+    pub(super) fn pair<L: Lanes>(&self, l: L, slot: U<L>, within: u32) -> [F<L>; 2] {
+        let first = dimension::MEDIA + self.sample.depth * dimension::MEDIUM;
+        self.sample.sampler.pair(l, self.sample.index(l, slot), first + within)
+    }
+}
