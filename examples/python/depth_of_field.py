@@ -52,12 +52,13 @@ def main() -> None:
     colours = ((1.0, 0.62, 0.28), (1.0, 0.78, 0.5), (0.55, 0.75, 1.0), (1.0, 0.45, 0.3))
     lamp = scene.add_points(numpy.zeros((1, 3), "f4"), 0.022)
     for number in range(56):
-        bulb = scene.add_material(base_color=(0, 0, 0), emission_color=[1300.0 * random.uniform(0.4, 1.3) * part for part in colours[number % 4]])
-        place = (random.uniform(-2.6, 2.6), random.uniform(0.02, 1.25), random.uniform(-3.4, -2.2))
+        strength = 1300.0 * random.uniform(0.4, 1.3)
+        bulb = scene.add_material(base_color=(0, 0, 0), emission_color=[strength * part for part in colours[number % 4]])
+        place = (random.uniform(-1.5, 1.5), random.uniform(-0.1, 0.6), random.uniform(-3.4, -2.2))
         scene.add_instance(points=lamp, materials=[bulb], transform=at(*place))
     dusk = scene.add_material(base_color=(0.02, 0.025, 0.04), specular_weight=0.0)
     quad(scene, [(-6, -2, -5), (6, -2, -5), (6, 4, -5), (-6, 4, -5)], dusk)
-    pane = scene.add_material(base_color=(0, 0, 0), emission_color=(3.2, 4.4, 8.0))
+    pane = scene.add_material(base_color=(0, 0, 0), emission_color=(1.5, 0.8, 0.3))
     for x in (-1.9, 0.75):
         put_box(scene, (x, 0.25, -4.9), (x + 0.8, 1.6, -4.85), pane)
     scene.add_light("rectangle", lumens=28.0, temperature=4200.0, width=0.3, height=0.3, transform=gonio.look_at((-0.5, 0.5, 0.35), (0, 0, 0)), visible=False)

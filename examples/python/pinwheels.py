@@ -41,6 +41,9 @@ def meadow(scene: gonio.Scene) -> None:
     random = numpy.random.default_rng(8)
     earth = scene.add_material(base_color=(0.11, 0.15, 0.04), specular_weight=0.0)
     quad(scene, [(-900, 0, 6), (900, 0, 6), (900, 0, -900), (-900, 0, -900)], earth)
+    # Where no blades stand any more, the ground is as bright as they are from afar.
+    afar = scene.add_material(base_color=(0.22, 0.29, 0.08), specular_weight=0.0)
+    quad(scene, [(-900, 0.01, -20), (900, 0.01, -20), (900, 0.01, -900), (-900, 0.01, -900)], afar)
     count = 60_000
     z = 2.6 - 26.0 * random.random(count) ** 1.6
     root = numpy.stack([random.uniform(-1, 1, count) * (2.5 + 0.62 * (3.0 - z)), 0 * z, z], axis=-1)
