@@ -2,7 +2,7 @@
 
 use super::packet::{PacketStack, PacketVisitor, traverse_groups};
 use super::packet_mesh::traverse_mesh_packet;
-use super::scene_leaf::{SceneRays, visit};
+use super::scene_leaf::{Place, SceneRays, visit};
 use super::single::Stack;
 use super::single_scene::{SceneStacks, traverse_scene_from};
 use crate::intersect::leaf::{Leaf, PacketAtLeaf};
@@ -96,7 +96,6 @@ struct ScenePacket<'r, 'a, S: Simd, C: LaneCallback> {
 }
 
 impl<'r, S: Simd, C: LaneCallback> SceneRays<'r> for ScenePacket<'r, '_, S, C> {
-    type Image = PacketRays<S>;
     type Next = ();
     const PAST: () = ();
 
@@ -130,21 +129,14 @@ impl<'r, S: Simd, C: LaneCallback> SceneRays<'r> for ScenePacket<'r, '_, S, C> {
     }
 
     #[inline(always)]
-    fn image(&mut self, record: &InstanceRecord) -> Option<PacketRays<S>> {
-        let t_max = f32x16::from_slice(self.simd, &self.visitor.hits.t);
-        Some(self.rays.transformed(self.simd, &record.world_to_object, t_max, self.lanes))
-    }
-
-    #[inline(always)]
-    fn image_in_motion(&mut self, moving: &MovingRecord) -> Option<PacketRays<S>> {
-        let moved = in_motion(self.simd, moving, self.rays, self.visitor.times, &self.visitor.hits.t, self.lanes);
-        (moved.lanes != 0).then_some(moved)
-    }
-
-    #[inline(always)]
-    fn walk(&mut self, mesh: &Blas, image: PacketRays<S>, owner: Owner) {
+    fn walk(&mut self, mesh: &Blas, place: Place<'_>, owner: Owner) {
         let SceneVisitor { times, mesh_stack, single_mesh, hits, .. } = &mut *self.visitor;
-        traverse_mesh_packet::<S, C>(self.simd, mesh, &image, (owner, times), (mesh_stack, single_mesh), hits);
+        let (simd, rays) = (self.simd, self.rays);
+        let image = match place {
+            Place::AtRest(_, map) => rays.transformed(simd, map, f32x16::from_slice(simd, &hits.t), self.lanes),
+            Place::InMotion(moving) => in_motion(simd, moving, rays, times, &hits.t, self.lanes),
+        };
+        traverse_mesh_packet::<S, C>(simd, mesh, &image, (owner, times), (mesh_stack, single_mesh), hits);
     }
 }
 

@@ -1,6 +1,7 @@
 //! What happens at the leaves of the scene's tree: triangles in world space are tested, instances entered. Rays alone, packets and streams all do it here.
 
 use crate::intersect::shape::Shape;
+use crate::intersect::transform::Affine;
 use crate::intersect::triangle_block::TriangleBlock;
 use crate::tree::blas::Blas;
 use crate::tree::instance::{Geometry, InstanceRecord, MapKind, Owner};
@@ -10,8 +11,6 @@ use crate::tree::tlas::Tlas;
 
 /// One ray or several at a leaf of the scene's tree.
 pub(crate) trait SceneRays<'a> {
-    /// The rays in the space of an instance.
-    type Image;
     /// How they go on.
     type Next;
     /// They go on as if there were no leaf.
@@ -23,12 +22,14 @@ pub(crate) trait SceneRays<'a> {
     fn triangles(&mut self, block: &'a TriangleBlock, owner: Owner) -> Self::Next;
     /// Tests the shape of an instance.
     fn shape(&mut self, shape: Shape, record: &InstanceRecord) -> Self::Next;
-    /// The rays in the space of an instance that stands still, if any of them can hit something there.
-    fn image(&mut self, record: &InstanceRecord) -> Option<Self::Image>;
-    /// The same for an instance that moves.
-    fn image_in_motion(&mut self, moving: &MovingRecord) -> Option<Self::Image>;
-    /// Walks the tree of a mesh, or of curves or points.
-    fn walk(&mut self, mesh: &'a Blas, image: Self::Image, owner: Owner) -> Self::Next;
+    /// Goes into the space of an instance, and through the tree of its mesh, or of its curves or points.
+    fn walk(&mut self, mesh: &'a Blas, place: Place<'_>, owner: Owner) -> Self::Next;
+}
+
+/// The map from the world to an instance's space.
+pub(crate) enum Place<'m> {
+    AtRest(MapKind, &'m Affine),
+    InMotion(&'m MovingRecord),
 }
 
 /// Shows rays a leaf of the scene's tree.
@@ -52,12 +53,11 @@ pub(crate) fn enter<'a, R: SceneRays<'a>>(scene: &'a Tlas, record: &InstanceReco
     }
     match record.geometry.get() {
         Geometry::Mesh(index) => {
-            let image = match record.map {
-                MapKind::Moving => rays.image_in_motion(scene.moving(record.id)),
-                _ => rays.image(record),
+            let place = match record.map {
+                MapKind::Moving => Place::InMotion(scene.moving(record.id)),
+                kind => Place::AtRest(kind, &record.world_to_object),
             };
-            let Some(image) = image else { return R::PAST };
-            rays.walk(&scene.meshes[index as usize], image, record.owner())
+            rays.walk(&scene.meshes[index as usize], place, record.owner())
         }
         Geometry::Shape(shape) => rays.shape(shape, record),
     }

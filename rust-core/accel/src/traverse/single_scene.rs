@@ -1,6 +1,6 @@
 //! Traversal of both levels with one ray.
 
-use super::scene_leaf::{SceneRays, visit};
+use super::scene_leaf::{Place, SceneRays, visit};
 use super::single::{Stack, Visitor, traverse};
 use super::single_mesh::traverse_mesh;
 use crate::hit_callback::HitCallback;
@@ -12,10 +12,8 @@ use crate::intersect::triangle_block::TriangleBlock;
 use crate::ray::{RayBatch, RayMask};
 use crate::tree::blas::Blas;
 use crate::tree::instance::{InstanceRecord, MapKind, Owner};
-use crate::tree::moving::MovingRecord;
 use crate::tree::node::ChildRef;
 use crate::tree::tlas::Tlas;
-use std::borrow::Cow;
 
 /// The stacks of the two levels.
 pub(crate) struct SceneStacks<'a> {
@@ -87,7 +85,6 @@ struct SceneRay<'r, 'a, K: Lanes8, C: HitCallback> {
 }
 
 impl<'r, K: Lanes8, C: HitCallback> SceneRays<'r> for SceneRay<'r, '_, K, C> {
-    type Image = Cow<'r, PreparedRay>;
     type Next = bool;
     const PAST: bool = false;
 
@@ -107,22 +104,20 @@ impl<'r, K: Lanes8, C: HitCallback> SceneRays<'r> for SceneRay<'r, '_, K, C> {
     }
 
     #[inline(always)]
-    fn image(&mut self, record: &InstanceRecord) -> Option<Self::Image> {
-        match record.map {
-            MapKind::Identity => Some(Cow::Borrowed(self.ray)),
-            _ => self.lanes.image(&record.world_to_object, self.ray, self.visitor.callback.t_max()).map(Cow::Owned),
-        }
-    }
-
-    #[inline(always)]
-    fn image_in_motion(&mut self, moving: &MovingRecord) -> Option<Self::Image> {
-        let map = moving.enter(self.visitor.time, self.ray, self.visitor.callback.t_max())?;
-        self.lanes.image(&map, self.ray, self.visitor.callback.t_max()).map(Cow::Owned)
-    }
-
-    #[inline(always)]
-    fn walk(&mut self, mesh: &Blas, image: Self::Image, owner: Owner) -> bool {
+    fn walk(&mut self, mesh: &Blas, place: Place<'_>, owner: Owner) -> bool {
         let SceneVisitor { time, stack, callback, .. } = &mut *self.visitor;
-        traverse_mesh(self.lanes, mesh, ChildRef::ROOT, &image, (owner, *time), stack, *callback)
+        let (lanes, ray, at) = (self.lanes, self.ray, (owner, *time));
+        let moved;
+        let map = match place {
+            Place::AtRest(MapKind::Identity, _) => return traverse_mesh(lanes, mesh, ChildRef::ROOT, ray, at, stack, *callback),
+            Place::AtRest(_, map) => map,
+            Place::InMotion(moving) => {
+                let Some(map) = moving.enter(*time, ray, callback.t_max()) else { return false };
+                moved = map;
+                &moved
+            }
+        };
+        let Some(image) = lanes.image(map, ray, callback.t_max()) else { return false };
+        traverse_mesh(lanes, mesh, ChildRef::ROOT, &image, at, stack, *callback)
     }
 }

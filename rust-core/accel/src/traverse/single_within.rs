@@ -1,18 +1,16 @@
 //! Traversal of the mesh of one instance, whatever else is in the way.
 
-use super::scene_leaf::{SceneRays, enter};
+use super::scene_leaf::{Place, SceneRays, enter};
 use super::single::Stack;
 use super::single_mesh::traverse_mesh;
 use crate::hit_callback::HitCallback;
 use crate::intersect::lanes8::Lanes8;
 use crate::intersect::prepared::PreparedRay;
 use crate::intersect::shape::Shape;
-use crate::intersect::transform::Affine;
 use crate::intersect::triangle_block::TriangleBlock;
 use crate::ray::RayBatch;
 use crate::tree::blas::Blas;
 use crate::tree::instance::{InstanceRecord, Owner};
-use crate::tree::moving::MovingRecord;
 use crate::tree::node::ChildRef;
 use crate::tree::tlas::Tlas;
 
@@ -40,16 +38,7 @@ struct RayWithin<'r, K: Lanes8, C: HitCallback> {
     callback: &'r mut C,
 }
 
-impl<K: Lanes8, C: HitCallback> RayWithin<'_, K, C> {
-    #[inline(always)]
-    fn moved_by(&self, map: &Affine) -> Option<PreparedRay> {
-        let (rays, i) = (self.rays, self.i);
-        PreparedRay::new(map.point(rays.origin_of(i)), map.direction(rays.direction_of(i)), rays.t_min[i], self.callback.t_max())
-    }
-}
-
 impl<'a, K: Lanes8, C: HitCallback> SceneRays<'a> for RayWithin<'_, K, C> {
-    type Image = PreparedRay;
     type Next = ();
     const PAST: () = ();
 
@@ -65,18 +54,19 @@ impl<'a, K: Lanes8, C: HitCallback> SceneRays<'a> for RayWithin<'_, K, C> {
     fn shape(&mut self, _shape: Shape, _record: &InstanceRecord) {}
 
     #[inline(always)]
-    fn image(&mut self, record: &InstanceRecord) -> Option<PreparedRay> {
-        self.moved_by(&record.world_to_object)
-    }
-
-    #[inline(always)]
-    fn image_in_motion(&mut self, moving: &MovingRecord) -> Option<PreparedRay> {
-        self.moved_by(&moving.world_to_object(self.rays.time_of(self.i))?)
-    }
-
-    #[inline(always)]
-    fn walk(&mut self, mesh: &Blas, image: PreparedRay, owner: Owner) {
-        let at = (owner, self.rays.time_of(self.i));
-        traverse_mesh(self.lanes, mesh, ChildRef::ROOT, &image, at, self.stack, self.callback);
+    fn walk(&mut self, mesh: &Blas, place: Place<'_>, owner: Owner) {
+        let (rays, i) = (self.rays, self.i);
+        let moved;
+        let map = match place {
+            Place::AtRest(_, map) => map,
+            Place::InMotion(moving) => {
+                let Some(map) = moving.world_to_object(rays.time_of(i)) else { return };
+                moved = map;
+                &moved
+            }
+        };
+        let (origin, direction) = (map.point(rays.origin_of(i)), map.direction(rays.direction_of(i)));
+        let Some(ray) = PreparedRay::new(origin, direction, rays.t_min[i], self.callback.t_max()) else { return };
+        traverse_mesh(self.lanes, mesh, ChildRef::ROOT, &ray, (owner, rays.time_of(i)), self.stack, self.callback);
     }
 }

@@ -1,13 +1,12 @@
 //! The steps of a ray in a stream at leaves of the scene's tree.
 
-use super::scene_leaf::{SceneRays, enter, test};
+use super::scene_leaf::{Place, SceneRays, enter, test};
 use super::stream_ray::{NEXT, StreamRay};
 use crate::hit_callback::HitCallback;
 use crate::intersect::shape::Shape;
 use crate::intersect::triangle_block::TriangleBlock;
 use crate::tree::blas::Blas;
 use crate::tree::instance::{InstanceRecord, MapKind, Owner};
-use crate::tree::moving::MovingRecord;
 use crate::tree::tlas::Tlas;
 use fearless_simd::prelude::*;
 
@@ -34,7 +33,6 @@ struct StreamedRay<'r, 'a, S: Simd, C: HitCallback> {
 }
 
 impl<'a, S: Simd, C: HitCallback> SceneRays<'a> for StreamedRay<'_, 'a, S, C> {
-    type Image = ();
     /// The number of its next step.
     type Next = usize;
     const PAST: usize = NEXT;
@@ -58,24 +56,20 @@ impl<'a, S: Simd, C: HitCallback> SceneRays<'a> for StreamedRay<'_, 'a, S, C> {
     }
 
     #[inline(always)]
-    fn image(&mut self, record: &InstanceRecord) -> Option<()> {
-        let ([ray, image], map, t_max) = (&mut self.ray.rays, &record.world_to_object, self.ray.callback.t_max());
-        let may_hit = match record.map {
-            MapKind::Translation | MapKind::Identity => image.shift(self.simd, ray, map.translation(self.simd), t_max),
-            _ => image.move_by(self.simd, ray, map, t_max),
+    fn walk(&mut self, mesh: &'a Blas, place: Place<'_>, _owner: Owner) -> usize {
+        let (simd, [ray, image], t_max) = (self.simd, &mut self.ray.rays, self.ray.callback.t_max());
+        let may_hit = match place {
+            Place::AtRest(MapKind::Translation | MapKind::Identity, map) => image.shift(simd, ray, map.translation(simd), t_max),
+            Place::AtRest(_, map) => image.move_by(simd, ray, map, t_max),
+            Place::InMotion(moving) => match moving.enter(self.ray.time, ray, t_max) {
+                Some(map) => image.move_by(simd, ray, &map, t_max),
+                None => false,
+            },
         };
-        may_hit.then_some(())
-    }
-
-    #[inline(always)]
-    fn image_in_motion(&mut self, moving: &MovingRecord) -> Option<()> {
-        let ([ray, image], t_max) = (&mut self.ray.rays, self.ray.callback.t_max());
-        let map = moving.enter(self.ray.time, ray, t_max)?;
-        image.move_by(self.simd, ray, &map, t_max).then_some(())
-    }
-
-    #[inline(always)]
-    fn walk(&mut self, mesh: &'a Blas, (): (), _owner: Owner) -> usize {
-        if mesh.is_still() { self.ray.enter(mesh) } else { self.ray.pass_deforming(self.simd, mesh) }
+        match (may_hit, mesh.is_still()) {
+            (false, _) => NEXT,
+            (true, true) => self.ray.enter(mesh),
+            (true, false) => self.ray.pass_deforming(simd, mesh),
+        }
     }
 }
