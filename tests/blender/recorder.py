@@ -37,7 +37,6 @@ class Recorder:
         return index
 
     def put_atmosphere(self, description):
-        self.calls.append("atmosphere")
         self.atmosphere = description
 
     def put_mesh(self, points, triangles, *, corners=None, faces=None, normals=None, primvars=None, slots=None, name="mesh", index=None):

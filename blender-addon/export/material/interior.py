@@ -131,7 +131,6 @@ def _principled(t, node, context, seen):
             raise Uneven
         tint = _even(t, node, context, "Blackbody Tint", 1.0)
         shining = [each + glow * a * b for each, a, b in zip(shining, tint, hue.constant[:3], strict=True)]
-    # Hues of fire lie outside of the colours of screens: a component may be below zero, as in Cycles.
     emission = tuple(each * LUMENS_PER_WATT for each in shining)
     cosine = min(max(_number(t, node, context, "Anisotropy"), -1.0), 1.0)
     return Medium(absorption, scattering, emission, sum(scattering) * cosine)

@@ -62,7 +62,9 @@ def test_what_is_gone_is_told_no_more(tmp_path):
     empty()
     scene = bpy.context.scene
     made, tree, end = material("Fog")
-    tree.links.new(tree.nodes.new("ShaderNodeVolumeScatter").outputs[0], end.inputs["Volume"])
+    fog = tree.nodes.new("ShaderNodeVolumeScatter")
+    tree.links.new(tree.nodes.new("ShaderNodeTexNoise").outputs[0], fog.inputs["Density"])
+    tree.links.new(fog.outputs[0], end.inputs["Volume"])
     thing = link(bpy.data.objects.new("Box", quad()))
     thing.data.materials.append(made)
     lamp = bpy.data.lights.new("Lamp", "SUN")

@@ -84,18 +84,19 @@ def test_visibility_and_overrides(tmp_path):
     layer.layer_collection.children["Indirect"].indirect_only = True
     for name in ("camera", "diffuse", "glossy", "transmission", "shadow"):
         setattr(link(bpy.data.objects.new(name, quad())), f"visible_{name}", False)
+    link(bpy.data.objects.new("volume", quad())).visible_volume_scatter = False
     link(bpy.data.objects.new("catcher", quad())).is_shadow_catcher = True
     exported, report = exporter()
     recorded = exported.sync(depsgraph())
     assert not report.diagnostics
-    usual = dict.fromkeys(("camera", "diffuse", "glossy", "transmission", "shadow"), True)
+    usual = dict.fromkeys(("camera", "diffuse", "glossy", "transmission", "volume", "shadow"), True)
     found = {
         entry["name"]: {key for key, value in entry["visibility"].items() if value is not usual.get(key)} for entry in recorded.instances
     }
     assert found == {
         "Held": {"holdout"},
         "Indirect": {"camera"},
-        **{name: {name} for name in ("camera", "diffuse", "glossy", "transmission", "shadow")},
+        **{name: {name} for name in ("camera", "diffuse", "glossy", "transmission", "volume", "shadow")},
         "catcher": {"shadow_catcher"},
     }
     layer.material_override = bpy.data.materials.new("Clay")

@@ -39,7 +39,7 @@ fn held(medium: &Medium) -> Medium {
     Medium {
         absorption: medium.absorption.map(coefficient),
         scattering: medium.scattering.map(coefficient),
-        // Hues of fire lie outside of the colours of screens.
+        // Below zero it takes light away, as lamps of negative strength do.
         emission: medium.emission.map(finite),
         anisotropy,
     }
