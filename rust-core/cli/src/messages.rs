@@ -1,6 +1,7 @@
 //! What the command says: results on standard output, all else on standard error.
 
 use gonio::{Diagnostic, Error, Severity};
+use gonio_formats::tame;
 use std::{
     io::{self, Write},
     path::Path,
@@ -13,7 +14,7 @@ static LOST: Mutex<Option<io::Error>> = Mutex::new(None);
 /// A line on standard error.
 pub(super) fn say(line: &str) {
     // Messages may quote a broken file's bytes, which must not break the line.
-    let line: String = line.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect();
+    let line = tame(line);
     // A closed standard error leaves nobody to tell.
     let _ = writeln!(io::stderr(), "gonio: {line}");
 }

@@ -2,6 +2,7 @@
 
 use super::{arguments::InfoOptions, file, messages::print};
 use gonio::{Error, Result};
+use gonio_formats::tame;
 use gonio_volume::{GridInfo, Metadata, VolumeError, VolumeFile};
 use serde_json::{Map, Value, json};
 use std::path::Path;
@@ -24,8 +25,7 @@ pub(super) fn info(options: &InfoOptions) -> Result<i32> {
         print(&as_json(&volume).to_string());
     } else {
         // Names are the file's, and must not break the line.
-        let plain = |line: &String| line.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect::<String>();
-        as_text(&volume).iter().for_each(|line| print(&plain(line)));
+        as_text(&volume).iter().for_each(|line| print(&tame(line)));
     }
     Ok(0)
 }

@@ -17,5 +17,5 @@ mod short;
 mod svg;
 
 pub use error::{FormatError, Place};
-pub use short::short_number;
+pub use short::{short_number, tame};
 pub use svg::{Anchor, Canvas, escape};

@@ -1,4 +1,4 @@
-//! Numbers for readers.
+//! Numbers and texts for readers.
 
 /// Three digits that count, whole from 100 on, without zeros behind the point; a power of ten where that would be long.
 pub fn short_number(value: f64) -> String {
@@ -8,6 +8,11 @@ pub fn short_number(value: f64) -> String {
     let digits = (2 - value.abs().log10().floor() as i32).clamp(0, 6) as usize;
     let text = format!("{value:.digits$}");
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+/// Text that neither breaks a line nor reaches into a terminal: control characters are replaced.
+pub fn tame(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect()
 }
 
 #[cfg(test)]

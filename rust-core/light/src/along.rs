@@ -4,8 +4,8 @@
 //! Many Lights with Adaptive Tree Splitting (2018), section 5.3.
 
 use super::light_bounds::LightBounds;
-use super::row::{ROW, Reader};
-use super::table::{LightSampler, LightTable, MOST_EXHAUSTIVE};
+use super::row::Reader;
+use super::table::{LightSampler, LightTable};
 use super::way::LightWay;
 use gonio_simd::{F, Lanes, U, Vec3};
 
@@ -25,30 +25,11 @@ impl LightTable {
     #[inline(always)]
     pub fn sample_along<L: Lanes>(&self, l: L, way: &LightWay<L>, u: F<L>) -> LightAlong<L> {
         let light = match &self.sampler {
-            LightSampler::Exhaustive => self.exhaustive_along(l, way, u),
-            LightSampler::Tree(tree) => tree.sample_along(l, &self.rows, way, u),
+            LightSampler::Exhaustive => self.sample_exhaustive(l, *way, u),
+            LightSampler::Tree(tree) => tree.sample_light(l, &self.rows, *way, u),
         };
         let bounds = LightBounds::gather(&Reader::new(l, &self.rows, light.0));
         let (centre, reached) = bounds.reached(l, way);
         LightAlong { light, centre, reached }
-    }
-
-    #[inline(always)]
-    fn exhaustive_along<L: Lanes>(&self, l: L, way: &LightWay<L>, u: F<L>) -> (U<L>, F<L>) {
-        let mut importances = [l.f(0.0); MOST_EXHAUSTIVE];
-        let mut total = l.f(0.0);
-        for (row, importance) in self.rows.chunks_exact(ROW).zip(&mut importances) {
-            *importance = LightBounds::splat(l, row).importance_along(l, way);
-            total += *importance;
-        }
-        let target = u * total;
-        let (mut light, mut chosen, mut sum) = (l.u(0), importances[0], importances[0]);
-        for next in &importances[1..self.count] {
-            let beyond = sum.le(target);
-            light += beyond.to_integers();
-            chosen = beyond.select(*next, chosen);
-            sum += *next;
-        }
-        (light, chosen.share_of(total))
     }
 }

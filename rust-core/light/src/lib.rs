@@ -75,4 +75,4 @@ pub use shaded::TrianglePoint;
 pub use size::size_factor;
 pub use table::LightTable;
 pub use tree::{Arrival, LightCache};
-pub use way::LightWay;
+pub use way::{LightWay, Sight};

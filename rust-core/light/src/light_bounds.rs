@@ -97,7 +97,7 @@ impl<L: Lanes> LightBounds<L> {
         let (_, [from, to]) = self.reached(l, way);
         let far = self.is(flag::INFINITE);
         let part = LightWay { origin: way.place(from), direction: way.direction, length: (to - from).max(0.0) };
-        let near = self.gain * part.nearness(self.centre, self.radius);
+        let near = self.gain * part.seen_from(self.centre, self.radius).nearness();
         (self.strength * far.select(part.length, near)).min(1e30).keep_if(to.gt(from))
     }
 
@@ -142,7 +142,8 @@ fn within_cone<L: Lanes>(way: &LightWay<L>, apex: Vec3<L>, axis: Vec3<L>, cosine
     let a = along * along - squared;
     let b = along * begun - squared * to.dot(way.direction);
     let c = begun * begun - squared * to.length_squared();
-    let root = (b * b - a * c).safe_sqrt();
+    let discriminant = b * b - a * c;
+    let root = discriminant.safe_sqrt();
     let safe = a.abs().max(1e-12).copysign(a);
     let [one, other] = [(-b - root) / safe, (-b + root) / safe];
     let (low, high) = (one.min(other), one.max(other));
@@ -150,7 +151,7 @@ fn within_cone<L: Lanes>(way: &LightWay<L>, apex: Vec3<L>, axis: Vec3<L>, cosine
     // Steeper than the cone, a way crosses it between the roots, in this half or in the other; else it stays in from a root on.
     let crosses = a.lt(0.0);
     let ahead = along.mul_add((low + high) * 0.5, begun).gt(0.0);
-    let met = (b * b - a * c).gt(0.0);
+    let met = discriminant.gt(0.0);
     let inward = along.gt(0.0);
     let first = crosses.select((met & ahead).select(low, none[0]), inward.select(high, whole[0]));
     let last = crosses.select((met & ahead).select(high, none[1]), inward.select(whole[1], low));

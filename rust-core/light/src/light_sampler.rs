@@ -5,7 +5,7 @@ use super::context::LightSampleContext;
 use super::light_bounds::LightBounds;
 use super::row::{ROW, Reader};
 use super::table::{LightSampler, LightTable, MOST_EXHAUSTIVE};
-use super::tree::{Arrival, LightCache, LightTree};
+use super::tree::{Arrival, LightCache, LightTree, Point, Receiver};
 use gonio_simd::{F, Lanes, U, Vec3};
 
 /// Up to this many there is a kernel with less room.
@@ -59,11 +59,7 @@ impl LightTable {
         u: F<L>,
     ) -> (U<L>, F<L>) {
         match &self.sampler {
-            // One light wants no registers of the point.
-            LightSampler::Exhaustive if self.count <= 1 => (l.u(0), l.f(1.0)),
-            // Most scenes have few; room for 64 would be cleared each time.
-            LightSampler::Exhaustive if self.count <= FEW => self.sample_exhaustive::<L, FEW>(l, from, u),
-            LightSampler::Exhaustive => self.sample_exhaustive::<L, MOST_EXHAUSTIVE>(l, from, u),
+            LightSampler::Exhaustive => self.sample_exhaustive(l, Point::of(from), u),
             LightSampler::Tree(tree) => self.sample_tree(l, (tree, light_cache), class, from, u),
         }
     }
@@ -80,18 +76,29 @@ impl LightTable {
     ) -> (U<L>, F<L>) {
         match light_cache {
             Some(light_cache) => light_cache.sample_light(l, tree, &self.rows, class, from, u),
-            None => tree.sample_light(l, &self.rows, from.position, from.normal, u),
+            None => tree.sample_light(l, &self.rows, Point::of(from), u),
         }
     }
 
-    /// Selects one of at most `MOST` lights by the importances of them all.
+    /// Selects one of at most [`MOST_EXHAUSTIVE`] lights by the importances of them all.
     #[inline(always)]
-    fn sample_exhaustive<L: Lanes, const MOST: usize>(&self, l: L, from: &LightSampleContext<L>, u: F<L>) -> (U<L>, F<L>) {
-        let (p, n) = (from.position, from.normal);
+    pub(super) fn sample_exhaustive<L: Lanes, R: Receiver<L>>(&self, l: L, receiver: R, u: F<L>) -> (U<L>, F<L>) {
+        match self.count {
+            // One light wants no registers of the receiver.
+            0 | 1 => (l.u(0), l.f(1.0)),
+            // Most scenes have few; room for 64 would be cleared each time.
+            2..=FEW => self.sample_all_of::<L, R, FEW>(l, receiver, u),
+            _ => self.sample_all_of::<L, R, MOST_EXHAUSTIVE>(l, receiver, u),
+        }
+    }
+
+    /// The same of at most `MOST`.
+    #[inline(always)]
+    fn sample_all_of<L: Lanes, R: Receiver<L>, const MOST: usize>(&self, l: L, receiver: R, u: F<L>) -> (U<L>, F<L>) {
         let mut importances = [l.f(0.0); MOST];
         let mut total = l.f(0.0);
         for (row, importance) in self.rows.chunks_exact(ROW).zip(&mut importances) {
-            *importance = LightBounds::splat(l, row).importance(l, p, n);
+            *importance = receiver.weigh(l, &LightBounds::splat(l, row));
             total += *importance;
         }
         let target = u * total;
@@ -143,7 +150,7 @@ impl LightTable {
     ) -> F<L> {
         match light_cache {
             Some(light_cache) => light_cache.probability(l, tree, &self.rows, class, from, light),
-            None => tree.probability(l, &self.rows, from.position, from.normal, light),
+            None => tree.probability(l, &self.rows, Point::of(from), light),
         }
     }
 

@@ -14,19 +14,55 @@ pub struct LightWay<L: Lanes> {
 }
 
 impl<L: Lanes> LightWay<L> {
-    /// The integral of one over the squared distance to a point, along the way; the point is no nearer than `least`.
+    /// How a point sees it, as if from no nearer than `least`.
     #[inline(always)]
-    pub(crate) fn nearness(&self, point: Vec3<L>, least: F<L>) -> F<L> {
+    pub fn seen_from(&self, point: Vec3<L>, least: F<L>) -> Sight<L> {
         let to = point - self.origin;
         let nearest = to.dot(self.direction);
         let apart = (to - self.direction * nearest).length().max(least).max(1e-6);
-        let angle = (self.length - nearest).atan2(apart) - (-nearest).atan2(apart);
-        angle.max(1e-7) / apart
+        Sight { nearest, apart, angles: [(-nearest).atan2(apart), (self.length - nearest).atan2(apart)] }
     }
 
     /// The place after so many metres.
     #[inline(always)]
     pub fn place(&self, distance: F<L>) -> Vec3<L> {
         self.direction.mul_add(distance, self.origin)
+    }
+}
+
+/// A way as a point sees it: places along it by their angle (equiangular sampling).
+#[derive(Clone, Copy, Debug)]
+pub struct Sight<L: Lanes> {
+    /// Metres from the beginning of the way to what is nearest to the point, and from there to the point.
+    nearest: F<L>,
+    apart: F<L>,
+    /// Angles of the way's ends.
+    angles: [F<L>; 2],
+}
+
+impl<L: Lanes> Sight<L> {
+    #[inline(always)]
+    fn span(&self) -> F<L> {
+        self.angles[1] - self.angles[0]
+    }
+
+    /// The integral of one over the squared distance to the point, along the way.
+    #[inline(always)]
+    pub(crate) fn nearness(&self) -> F<L> {
+        self.span().max(1e-7) / self.apart
+    }
+
+    /// The place that a number in `[0, 1)` draws, metres from the way's beginning; rounding may lead beyond its ends.
+    #[inline(always)]
+    pub fn draw(&self, u: F<L>) -> F<L> {
+        let (sin, cos) = self.angles[0].lerp(self.angles[1], u).sin_cos();
+        (sin / cos.max(1e-7)).mul_add(self.apart, self.nearest)
+    }
+
+    /// The density of that, a metre.
+    #[inline(always)]
+    pub fn density(&self, distance: F<L>) -> F<L> {
+        let off = distance - self.nearest;
+        self.apart / (self.span().max(1e-6) * self.apart.mul_add(self.apart, off * off))
     }
 }

@@ -4,6 +4,7 @@ use crate::{
     optimise::Best,
     results::{Footing, Illuminances, Observed, Results, Verdict},
 };
+use gonio_formats::tame;
 
 /// A number that may have no meaning.
 pub fn number(value: Option<f64>, digits: usize) -> String {
@@ -106,7 +107,7 @@ pub fn lines(results: &Results) -> Vec<String> {
     lines.extend(requirements(results));
     lines.extend(results.notes.iter().map(|note| format!("note: {note}")));
     // Texts of files must not reach into the terminal.
-    lines.iter().map(|line| line.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect()).collect()
+    lines.iter().map(|line| tame(line)).collect()
 }
 
 /// What was required, with what became of it.

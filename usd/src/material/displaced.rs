@@ -4,17 +4,15 @@ use super::emit::{is_constant, multiply};
 use super::from_usd;
 use super::network::{Network, Shader};
 use super::neutral::NodeIndex;
-use super::outputs::{RENDER_CONTEXTS, is_preview_surface, output_name};
+use super::outputs::{DISPLACEMENT, is_preview_surface, source};
 use crate::context::Context;
 use crate::prim::Prim;
-use crate::pxr::Module;
 use gonio::scene::{Displacement, DisplacementKind, Graph, Origin};
-use pyo3::{intern, prelude::*};
 
 /// What displaces a material; its nodes are added to the graph.
 pub(super) fn read<'py>(context: &mut Context<'_, 'py>, material: &Prim<'py>, graph: &mut Graph) -> Option<Displacement> {
     let origin = Origin::new(material.path());
-    let prim = context.attempt(&origin, "the material's displacement cannot be found", source(material))??;
+    let prim = context.attempt(&origin, "the material's displacement cannot be found", source(material, DISPLACEMENT))??;
     let document = from_usd::read(prim, &context.time);
     let mut network = Network::new(context, document);
     network.graph = std::mem::take(graph);
@@ -22,30 +20,6 @@ pub(super) fn read<'py>(context: &mut Context<'_, 'py>, material: &Prim<'py>, gr
     let found = convert(&mut network, &shader);
     *graph = network.graph;
     found.filter(|displacement| !displacement.is_nothing())
-}
-
-/// The shader behind the output, in the render context that goes first.
-fn source<'py>(material: &Prim<'py>) -> PyResult<Option<Prim<'py>>> {
-    // Most materials displace nothing, which is told by names that are known.
-    let stated = RENDER_CONTEXTS.into_iter().filter(|context| material.has_authored(&output_name(context, "displacement")));
-    let stated: Vec<&str> = stated.collect();
-    if stated.is_empty() {
-        return Ok(None);
-    }
-    let py = material.py();
-    let wrapped = Module::UsdShade.wrap("Material", material.object())?;
-    for render_context in stated {
-        let output = wrapped.call_method1(intern!(py, "GetDisplacementOutput"), (render_context,))?;
-        // A missing context falls back to the universal one, which has its own turn.
-        if !output.is_truthy()? || !output.call_method0(intern!(py, "HasConnectedSource"))?.is_truthy()? {
-            continue;
-        }
-        let shader = wrapped.call_method1(intern!(py, "ComputeDisplacementSource"), (render_context,))?.get_item(0)?;
-        if shader.is_truthy()? {
-            return Ok(Some(Prim::new(shader.call_method0(intern!(py, "GetPrim"))?)));
-        }
-    }
-    Ok(None)
 }
 
 /// A displacement shader's value; `None` for one that is not known, which is told.

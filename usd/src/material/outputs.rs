@@ -1,6 +1,8 @@
 //! A material's outputs, and the render contexts that they are for.
 
 use crate::prim::Prim;
+use crate::pxr::Module;
+use pyo3::{intern, prelude::*};
 
 /// Render contexts that go before others, the best first; the empty one is the universal.
 pub(super) const RENDER_CONTEXTS: [&str; 3] = ["gonio", "mtlx", ""];
@@ -20,4 +22,34 @@ pub(super) fn render_contexts(prim: &Prim<'_>) -> Vec<String> {
     let others = prim.authored_names().iter().filter_map(|name| name.strip_prefix("outputs:")?.strip_suffix(":surface"));
     let others = others.filter(|context| !RENDER_CONTEXTS.contains(context));
     RENDER_CONTEXTS.iter().copied().chain(others).map(str::to_owned).collect()
+}
+
+/// An output of materials beside their surface: its name, and the methods of `UsdShade.Material` that find it and its shader.
+pub(super) struct Output(&'static str, &'static str, &'static str);
+
+pub(super) const DISPLACEMENT: Output = Output("displacement", "GetDisplacementOutput", "ComputeDisplacementSource");
+pub(super) const VOLUME: Output = Output("volume", "GetVolumeOutput", "ComputeVolumeSource");
+
+/// The shader behind an output, in the render context that goes first.
+pub(super) fn source<'py>(material: &Prim<'py>, Output(name, output, source): Output) -> PyResult<Option<Prim<'py>>> {
+    // Most materials have none, which is told by names that are known.
+    let stated = RENDER_CONTEXTS.into_iter().filter(|context| material.has_authored(&output_name(context, name)));
+    let stated: Vec<&str> = stated.collect();
+    if stated.is_empty() {
+        return Ok(None);
+    }
+    let py = material.py();
+    let wrapped = Module::UsdShade.wrap("Material", material.object())?;
+    for render_context in stated {
+        let output = wrapped.call_method1(output, (render_context,))?;
+        // A missing context falls back to the universal one, which has its own turn.
+        if !output.is_truthy()? || !output.call_method0(intern!(py, "HasConnectedSource"))?.is_truthy()? {
+            continue;
+        }
+        let shader = wrapped.call_method1(source, (render_context,))?.get_item(0)?;
+        if shader.is_truthy()? {
+            return Ok(Some(Prim::new(shader.call_method0(intern!(py, "GetPrim"))?)));
+        }
+    }
+    Ok(None)
 }

@@ -3,18 +3,16 @@
 use super::from_usd;
 use super::network::{Network, Shader};
 use super::neutral::NodeIndex;
-use super::outputs::{RENDER_CONTEXTS, output_name};
+use super::outputs::{VOLUME, source};
 use super::surface::{behind, emission, node_name};
 use crate::context::Context;
 use crate::prim::Prim;
-use crate::pxr::Module;
 use gonio::scene::{Input, Medium, Origin};
-use pyo3::{intern, prelude::*};
 
 /// What fills the meshes of a material; `None` where it has no such output, or what is there is told to be left out.
 pub(super) fn read<'py>(context: &mut Context<'_, 'py>, material: &Prim<'py>) -> Option<Medium> {
     let origin = Origin::new(material.path());
-    let prim = context.attempt(&origin, "the material's volume cannot be found", source(material))??;
+    let prim = context.attempt(&origin, "the material's volume cannot be found", source(material, VOLUME))??;
     let document = from_usd::read(prim, &context.time);
     let mut network = Network::new(context, document);
     let shader = network.shader(NodeIndex(0));
@@ -22,28 +20,6 @@ pub(super) fn read<'py>(context: &mut Context<'_, 'py>, material: &Prim<'py>) ->
     // Coefficients are one over the stage's units.
     let metres = network.host.metres_per_unit() as f32;
     Some(scaled(found, metres.recip()))
-}
-
-/// The shader behind the output, in the render context that goes first.
-fn source<'py>(material: &Prim<'py>) -> PyResult<Option<Prim<'py>>> {
-    let stated = RENDER_CONTEXTS.into_iter().filter(|context| material.has_authored(&output_name(context, "volume")));
-    let stated: Vec<&str> = stated.collect();
-    if stated.is_empty() {
-        return Ok(None);
-    }
-    let py = material.py();
-    let wrapped = Module::UsdShade.wrap("Material", material.object())?;
-    for render_context in stated {
-        let output = wrapped.call_method1(intern!(py, "GetVolumeOutput"), (render_context,))?;
-        if !output.is_truthy()? || !output.call_method0(intern!(py, "HasConnectedSource"))?.is_truthy()? {
-            continue;
-        }
-        let shader = wrapped.call_method1(intern!(py, "ComputeVolumeSource"), (render_context,))?.get_item(0)?;
-        if shader.is_truthy()? {
-            return Ok(Some(Prim::new(shader.call_method0(intern!(py, "GetPrim"))?)));
-        }
-    }
-    Ok(None)
 }
 
 /// So much of a medium.

@@ -12,7 +12,10 @@ use super::{
     messages::print,
 };
 use gonio::{Error, Result};
-use gonio_formats::bsdf::{Format, Measured, lobe_diagram, lobe_map, read};
+use gonio_formats::{
+    bsdf::{Format, Measured, lobe_diagram, lobe_map, read},
+    tame,
+};
 use pyo3::Python;
 use serde_json::Value;
 use std::{path::Path, sync::atomic::AtomicBool};
@@ -92,7 +95,7 @@ fn as_text(description: &Value) -> Vec<String> {
     lines.extend(convert::as_text(&description["conversion"]));
     lines.extend(fit::as_text(&description["fit"]));
     // Texts of a file must not reach into the terminal.
-    lines.iter().map(|line| line.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect()).collect()
+    lines.iter().map(|line| tame(line)).collect()
 }
 
 fn load(path: &Path) -> Result<Loaded> {

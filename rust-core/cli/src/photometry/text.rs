@@ -1,6 +1,9 @@
 //! What a luminaire's file holds, for readers.
 
-use gonio_formats::photometry::{Aside, Figures, Goniogram, LampSet, Opening, OpeningShape, PhotometricType, Spread, Symmetry, Tilt};
+use gonio_formats::{
+    photometry::{Aside, Figures, Goniogram, LampSet, Opening, OpeningShape, PhotometricType, Spread, Symmetry, Tilt},
+    tame,
+};
 
 /// CIE flux codes as they are written: whole per cent.
 pub(super) fn percents(codes: [f64; 5]) -> [i64; 5] {
@@ -53,7 +56,7 @@ pub(crate) fn as_text(goniogram: &Goniogram, figures: &Figures, front: Option<f6
     lines.extend(goniogram.tilt.as_ref().map(tilt));
     lines.extend(goniogram.warnings.iter().map(|warning| format!("warning: {warning}")));
     // Texts of a file must not reach into the terminal.
-    lines.iter().map(|line| line.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect()).collect()
+    lines.iter().map(|line| tame(line)).collect()
 }
 
 fn spreads([c0, c90]: &[Spread; 2]) -> String {

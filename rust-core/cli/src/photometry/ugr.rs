@@ -1,6 +1,9 @@
 //! UGR tables for readers, pages and machines.
 
-use gonio_formats::photometry::{Goniogram, REFLECTANCES, ROOMS, UgrTable};
+use gonio_formats::{
+    photometry::{Goniogram, REFLECTANCES, ROOMS, UgrTable},
+    tame,
+};
 use serde_json::{Value, json};
 
 /// What a table holds beside its numbers.
@@ -28,7 +31,7 @@ pub(crate) fn rows(table: &UgrTable) -> Vec<Vec<String>> {
 /// The table line by line.
 pub(super) fn as_text(goniogram: &Goniogram, table: &UgrTable) -> Vec<String> {
     let name = goniogram.text("LUMINAIRE").or_else(|| goniogram.text("LUMCAT")).unwrap_or("luminaire");
-    let name: String = name.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect();
+    let name = tame(name);
     let percents = |k: usize| REFLECTANCES.iter().chain(&REFLECTANCES).map(|all| format!("{:>6.0}", 100.0 * all[k])).collect::<String>();
     let mut lines = vec![format!("{name}: {}", caption(table))];
     lines.extend(["ceiling, %", "walls, %", "plane, %"].iter().enumerate().map(|(k, name)| format!("{name:<11}{}", percents(k))));

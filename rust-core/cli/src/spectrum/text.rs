@@ -1,6 +1,7 @@
 //! What spectra say, for readers.
 
 use super::Lamp;
+use gonio_formats::tame;
 use gonio_spectrum::{OPSINS, Rendering, Rendition, TOLERANCE, White};
 
 /// The longest name in a table.
@@ -30,12 +31,8 @@ pub(super) fn as_text(lamp: &Lamp) -> Vec<String> {
     let receptors = receptors.map(|((_, name), found)| format!("{name} {:.4} mW/lm (DER {:.3})", found.elr_mw_per_lm, found.der));
     lines.push(format!("alpha-opic efficacies: {}", receptors.collect::<Vec<_>>().join(", ")));
     lines.extend(figures.notes.iter().map(|note| format!("note: {note}")));
-    tame(lines)
-}
-
-/// Texts of a file must not reach into the terminal.
-fn tame(lines: Vec<String>) -> Vec<String> {
-    lines.iter().map(|line| line.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect()).collect()
+    // Texts of a file must not reach into the terminal.
+    lines.iter().map(|line| tame(line)).collect()
 }
 
 fn white_lines(white: &White) -> Vec<String> {
@@ -100,5 +97,6 @@ pub(super) fn as_table(lamps: &[Lamp]) -> Vec<String> {
     let notes =
         lamps.iter().zip(&names).flat_map(|(lamp, name)| lamp.figures.notes.iter().map(move |note| format!("note: {name}: {note}")));
     lines.extend(notes);
-    tame(lines)
+    // Texts of a file must not reach into the terminal.
+    lines.iter().map(|line| tame(line)).collect()
 }

@@ -5,7 +5,7 @@
 //! among all lights by the light tree, less those in the cache. So each light is selected in one way, and its probability is simple.
 //! Classes of receivers that see other lights have cells of their own.
 
-use super::{Below, LightTree, NONE, Node, below_one, draw};
+use super::{Below, LightTree, NONE, Node, Point, below_one, draw};
 use crate::context::LightSampleContext;
 use gonio_simd::{F, Lanes, M, One, U, Vec3};
 
@@ -112,7 +112,7 @@ impl LightCache {
         let u = below_one((u - cell.share) / rest);
         let others = !in_cache;
         let (other, chance) =
-            if others.count() <= FEW { tree.sample_each(l, rows, p, n, u, others) } else { tree.sample_light(l, rows, p, n, u) };
+            if others.count() <= FEW { tree.sample_each(l, rows, p, n, u, others) } else { tree.sample_light(l, rows, Point { p, n }, u) };
         let lost = cell.holds(l.gather_integers(&tree.leaves, other));
         let chance = (chance * rest).keep_if(!lost);
         (in_cache.select(light, other), in_cache.select(probability, chance))
@@ -143,7 +143,7 @@ impl LightCache {
         if !(!cached).any() {
             return probability;
         }
-        cached.select(probability, tree.probability(l, rows, p, n, light) * (l.f(1.0) - cell.share))
+        cached.select(probability, tree.probability(l, rows, Point { p, n }, light) * (l.f(1.0) - cell.share))
     }
 }
 

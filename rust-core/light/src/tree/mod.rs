@@ -4,22 +4,23 @@
 //! Dozens of sets at the top are weighed for all lanes alike, without gathers; below, nodes have up to eight children. Infinite lights have no
 //! place in the tree: their importances stand beside the top's.
 
-mod along;
 mod bound;
 mod build;
 mod learn;
 mod light_cache;
 mod node;
+mod receiver;
 mod single;
 
 use super::light_bounds::LightBounds;
 use super::row::{ROW, Reader, field, flag};
 use bound::Bound;
 use build::{NONE, Nodes, TOP, WIDTH};
-use gonio_simd::{F, Lanes, M, One, U, Vec3};
+use gonio_simd::{F, Lanes, M, One, U};
 pub use learn::Arrival;
 pub use light_cache::LightCache;
 use node::{Below, Node, WORDS};
+pub(crate) use receiver::{Point, Receiver};
 
 /// A light tree.
 #[derive(Clone, Debug)]
@@ -31,14 +32,6 @@ pub(crate) struct LightTree {
     leaves: Vec<u32>,
     /// Infinite lights.
     infinite: Vec<u32>,
-}
-
-/// A surface point with its normal.
-#[derive(Clone, Copy, Debug)]
-struct Receiver<L: Lanes> {
-    l: L,
-    p: Vec3<L>,
-    n: Vec3<L>,
 }
 
 /// One of several weights, drawn.
@@ -97,47 +90,44 @@ impl LightTree {
         Self { nodes, top, leaves, infinite: of(true).map(|(light, _)| light as u32).collect() }
     }
 
-    /// Selects a light for each point and gives its probability: 0 where no light can arrive.
+    /// Selects a light for each receiver and gives its probability: 0 where no light can arrive.
     #[inline(always)]
-    pub(crate) fn sample_light<L: Lanes>(&self, l: L, rows: &[f32], p: Vec3<L>, n: Vec3<L>, u: F<L>) -> (U<L>, F<L>) {
-        let receiver = Receiver { l, p, n };
+    pub(crate) fn sample_light<L: Lanes>(&self, l: L, rows: &[f32], receiver: impl Receiver<L>, u: F<L>) -> (U<L>, F<L>) {
         let mut weights = [l.f(0.0); TOP + 1];
-        weights[0] = self.infinite_importance(rows, receiver);
+        weights[0] = self.infinite_importance(l, rows, receiver);
         let mut total = weights[0];
         for (node, weight) in self.top.iter().zip(&mut weights[1..]) {
-            *weight = Node::splat(l, node).importance(l, p, n);
+            *weight = receiver.weigh_node(l, &Node::splat(l, node));
             total += *weight;
         }
         let drawn = draw(l, &weights[..=self.top.len()], total, u);
         let far = drawn.index.eq(0);
-        let (near, probability) = self.descend(receiver, drawn, !far);
+        let (near, probability) = self.descend(l, receiver, drawn, !far);
         if !far.any() {
             return (near, probability);
         }
-        let (light, share) = self.sample_infinite(rows, receiver, drawn.rest);
+        let (light, share) = self.sample_infinite(l, rows, receiver, drawn.rest);
         (far.select(light, near), far.select(drawn.probability * share, probability))
     }
 
-    /// Probability that [`Self::sample_light`] selects `light` at a point.
+    /// Probability that [`Self::sample_light`] selects `light` for a receiver.
     #[inline(always)]
-    pub(crate) fn probability<L: Lanes>(&self, l: L, rows: &[f32], p: Vec3<L>, n: Vec3<L>, light: U<L>) -> F<L> {
-        let receiver = Receiver { l, p, n };
-        let mut total = self.infinite_importance(rows, receiver);
+    pub(crate) fn probability<L: Lanes>(&self, l: L, rows: &[f32], receiver: impl Receiver<L>, light: U<L>) -> F<L> {
+        let mut total = self.infinite_importance(l, rows, receiver);
         for node in &self.top {
-            total += Node::splat(l, node).importance(l, p, n);
+            total += receiver.weigh_node(l, &Node::splat(l, node));
         }
         let leaf = l.gather_integers(&self.leaves, light);
         let near = leaf.ne(NONE);
-        let (node, share) = self.climb(receiver, leaf, near);
-        let weight = if near.any() { Node::gather(l, &self.nodes.words, node).importance(l, p, n) * share } else { l.f(0.0) };
-        let weight = near.select(weight, LightBounds::gather(&Reader::new(l, rows, light)).importance(l, p, n));
+        let (node, share) = self.climb(l, receiver, leaf, near);
+        let weight = if near.any() { receiver.weigh_node(l, &Node::gather(l, &self.nodes.words, node)) * share } else { l.f(0.0) };
+        let weight = near.select(weight, receiver.weigh(l, &LightBounds::gather(&Reader::new(l, rows, light))));
         weight.share_of(total)
     }
 
     /// Importances of the children of each lane's node, zero beyond the last, and their sum.
     #[inline(always)]
-    fn children<L: Lanes>(&self, receiver: Receiver<L>, parent: Below<L>, inner: M<L>) -> ([F<L>; WIDTH], F<L>) {
-        let Receiver { l, p, n } = receiver;
+    fn children<L: Lanes>(&self, l: L, receiver: impl Receiver<L>, parent: Below<L>, inner: M<L>) -> ([F<L>; WIDTH], F<L>) {
         let (first, count) = (parent.index(), parent.count().keep_if(inner));
         let (mut weights, mut total) = ([l.f(0.0); WIDTH], l.f(0.0));
         for (child, weight) in weights.iter_mut().enumerate() {
@@ -145,7 +135,7 @@ impl LightTree {
             if !present.any() {
                 break;
             }
-            *weight = Node::gather(l, &self.nodes.words, first + child as u32).importance(l, p, n).keep_if(present);
+            *weight = receiver.weigh_node(l, &Node::gather(l, &self.nodes.words, first + child as u32)).keep_if(present);
             total += *weight;
         }
         (weights, total)
@@ -153,8 +143,7 @@ impl LightTree {
 
     /// From a node at the top down to a light, and the probability of all selections on the way.
     #[inline(always)]
-    fn descend<L: Lanes>(&self, receiver: Receiver<L>, top: Drawn<L>, near: M<L>) -> (U<L>, F<L>) {
-        let l = receiver.l;
+    fn descend<L: Lanes>(&self, l: L, receiver: impl Receiver<L>, top: Drawn<L>, near: M<L>) -> (U<L>, F<L>) {
         let mut probability = top.probability;
         if !near.any() {
             return (l.u(0), probability);
@@ -166,7 +155,7 @@ impl LightTree {
             if !inner.any() {
                 return (node.index(), probability);
             }
-            let (weights, total) = self.children(receiver, node, inner);
+            let (weights, total) = self.children(l, receiver, node, inner);
             let drawn = draw(l, &weights, total, rest);
             let chosen = Below::gather(l, &self.nodes.words, node.index() + drawn.index);
             node = node.replaced_by(chosen, inner);
@@ -177,8 +166,7 @@ impl LightTree {
 
     /// From a leaf up to the top, and the probability of its being selected from there, for MIS.
     #[inline(always)]
-    fn climb<L: Lanes>(&self, receiver: Receiver<L>, leaf: U<L>, near: M<L>) -> (U<L>, F<L>) {
-        let Receiver { l, p, n } = receiver;
+    fn climb<L: Lanes>(&self, l: L, receiver: impl Receiver<L>, leaf: U<L>, near: M<L>) -> (U<L>, F<L>) {
         let (mut node, mut probability) = (leaf, l.f(1.0));
         while near.any() {
             let parent = l.gather_integers(&self.nodes.parents, node);
@@ -186,8 +174,8 @@ impl LightTree {
             if !below.any() {
                 break;
             }
-            let (_, total) = self.children(receiver, Below::gather(l, &self.nodes.words, parent), below);
-            let own = Node::gather(l, &self.nodes.words, node).importance(l, p, n);
+            let (_, total) = self.children(l, receiver, Below::gather(l, &self.nodes.words, parent), below);
+            let own = receiver.weigh_node(l, &Node::gather(l, &self.nodes.words, node));
             let share = own.share_of(total);
             probability = below.select(probability * share, probability);
             node = below.select(parent, node);
@@ -197,23 +185,22 @@ impl LightTree {
 
     /// Importances of the infinite lights, added up.
     #[inline(always)]
-    fn infinite_importance<L: Lanes>(&self, rows: &[f32], Receiver { l, p, n }: Receiver<L>) -> F<L> {
+    fn infinite_importance<L: Lanes>(&self, l: L, rows: &[f32], receiver: impl Receiver<L>) -> F<L> {
         let mut total = l.f(0.0);
         for light in &self.infinite {
-            total += LightBounds::splat(l, &rows[*light as usize * ROW..]).importance(l, p, n);
+            total += receiver.weigh(l, &LightBounds::splat(l, &rows[*light as usize * ROW..]));
         }
         total
     }
 
     /// Selects one of the infinite lights.
     #[inline(always)]
-    fn sample_infinite<L: Lanes>(&self, rows: &[f32], receiver: Receiver<L>, u: F<L>) -> (U<L>, F<L>) {
-        let Receiver { l, p, n } = receiver;
-        let total = self.infinite_importance(rows, receiver);
+    fn sample_infinite<L: Lanes>(&self, l: L, rows: &[f32], receiver: impl Receiver<L>, u: F<L>) -> (U<L>, F<L>) {
+        let total = self.infinite_importance(l, rows, receiver);
         let target = u * total;
         let (mut light, mut own, mut sum) = (l.u(0), l.f(0.0), l.f(0.0));
         for candidate in &self.infinite {
-            let weight = LightBounds::splat(l, &rows[*candidate as usize * ROW..]).importance(l, p, n);
+            let weight = receiver.weigh(l, &LightBounds::splat(l, &rows[*candidate as usize * ROW..]));
             let reached = sum.le(target) & weight.gt(0.0);
             light = reached.select(l.u(*candidate), light);
             own = reached.select(weight, own);

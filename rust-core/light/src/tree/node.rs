@@ -115,7 +115,7 @@ impl<L: Lanes> Below<L> {
 
 /// A node in each lane.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Node<L: Lanes> {
+pub(crate) struct Node<L: Lanes> {
     centre: Vec3<L>,
     /// Half the box's edges.
     half: Vec3<L>,
@@ -185,7 +185,7 @@ impl<L: Lanes> Node<L> {
     #[inline(always)]
     pub(super) fn importance_along(&self, way: &LightWay<L>) -> F<L> {
         let size = self.half.length();
-        (self.strength * way.nearness(self.centre, size * 0.5)).min(1e30)
+        (self.strength * way.seen_from(self.centre, size * 0.5).nearness()).min(1e30)
     }
     /// From the point to the box, along each axis.
     #[inline(always)]

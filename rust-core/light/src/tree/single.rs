@@ -1,6 +1,6 @@
 //! One point's way through the tree, with nodes in the lanes instead of points: for the few points of a register that need it.
 
-use super::{Below, Drawn, LightTree, Node, Receiver, TOP, below_one};
+use super::{Below, Drawn, LightTree, Node, Point, Receiver, TOP, below_one};
 use gonio_simd::{F, Lanes, M, One, U, Vec3};
 
 /// Room for the importances of the top and of the infinite lights, written a register at a time.
@@ -52,20 +52,20 @@ impl LightTree {
             let lane = left.trailing_zeros() as usize;
             left &= left - 1;
             let at = |v: [[f32; 16]; 3]| Vec3::splat(l, v.map(|values| values[lane]));
-            (lights[lane], probabilities[lane]) = self.sample_one(rows, Receiver { l, p: at(p), n: at(n) }, u[lane]);
+            (lights[lane], probabilities[lane]) = self.sample_one(l, rows, Point { p: at(p), n: at(n) }, u[lane]);
         }
         (l.load_integers(&lights, 0), l.load(&probabilities, 0))
     }
 
     /// The same for the one point that fills all lanes.
     #[inline(always)]
-    fn sample_one<L: Lanes>(&self, rows: &[f32], receiver: Receiver<L>, u: f32) -> (u32, f32) {
+    fn sample_one<L: Lanes>(&self, l: L, rows: &[f32], receiver: Point<L>, u: f32) -> (u32, f32) {
         let mut weights = [0.0; ROOM];
-        weights[0] = self.infinite_importance(rows, receiver).to_array()[0];
-        self.weigh(receiver, 0, self.top.len(), &mut weights[1..]);
+        weights[0] = self.infinite_importance(l, rows, receiver).to_array()[0];
+        self.weigh(l, receiver, 0, self.top.len(), &mut weights[1..]);
         let drawn = draw_one(&weights[..=self.top.len()], F(u));
         if drawn.index.0 == 0 {
-            let (light, share) = self.sample_infinite(rows, receiver, receiver.l.f(drawn.rest.0));
+            let (light, share) = self.sample_infinite(l, rows, receiver, l.f(drawn.rest.0));
             return (light.to_array()[0], share.to_array()[0] * drawn.probability.0);
         }
         let (mut probability, mut rest) = (drawn.probability, drawn.rest);
@@ -76,7 +76,7 @@ impl LightTree {
                 return (below.index().0, probability.0);
             }
             let (first, count) = (below.index().0, below.count().0 as usize);
-            self.weigh(receiver, first as usize, count, &mut weights);
+            self.weigh(l, receiver, first as usize, count, &mut weights);
             let drawn = draw_one(&weights[..count], rest);
             node = first + drawn.index.0;
             probability *= drawn.probability;
@@ -86,10 +86,10 @@ impl LightTree {
 
     /// Importances of neighbouring nodes; a register's worth more may be written behind them.
     #[inline(always)]
-    fn weigh<L: Lanes>(&self, Receiver { l, p, n }: Receiver<L>, first: usize, count: usize, weights: &mut [f32]) {
+    fn weigh<L: Lanes>(&self, l: L, receiver: Point<L>, first: usize, count: usize, weights: &mut [f32]) {
         for at in (0..count).step_by(L::COUNT) {
             let node = (l.iota() + at as u32).min(count as u32 - 1) + first as u32;
-            Node::gather(l, &self.nodes.words, node).importance(l, p, n).store(weights, at);
+            receiver.weigh_node(l, &Node::gather(l, &self.nodes.words, node)).store(weights, at);
         }
     }
 }

@@ -150,10 +150,8 @@ impl<L: Lanes> MediaSet<L> {
         if media.is_empty() {
             return sum;
         }
-        for word in self.names {
-            if word.ne(0).any() {
-                sum = sum + media.extinction(l, word & NAME) + media.extinction(l, word >> BITS);
-            }
+        for row in self.rows().into_iter().flatten() {
+            sum += media.extinction(l, row);
         }
         sum
     }
@@ -207,10 +205,6 @@ impl MediaColumns {
     pub fn gather<L: Lanes>(&self, l: L, ray: U<L>) -> MediaSet<L> {
         let [first, second] = &self.names;
         MediaSet { names: [l.gather_integers(first, ray), l.gather_integers(second, ray)], solid: self.solid.gather(l, ray) }
-    }
-    /// Puts the first `count` rays into what fills all of space, a row of the table.
-    pub fn fill(&mut self, count: usize, everywhere: u32) {
-        self.names[0][..count].fill(everywhere);
     }
     /// Copies those of one ray over another's.
     pub fn copy(&mut self, from: usize, to: usize) {

@@ -110,13 +110,8 @@ impl LightTracer<'_> {
         flux
     }
 
-    /// What fills the places where the paths start.
+    /// What bodies hold the places where the paths start.
     fn find_media(&self, ws: &mut Workspace) {
-        let everywhere = self.tables.materials.media.everywhere;
-        if everywhere != 0 {
-            let Paths { count, media, .. } = &mut ws.paths;
-            media.fill(*count, everywhere);
-        }
         let bodies = match self.emission {
             Emission::Lights(_) => &self.tables.bodies.around_lights,
             Emission::Rays(_) => &self.tables.bodies.absorbing,

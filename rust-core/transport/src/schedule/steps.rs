@@ -28,7 +28,7 @@ use std::{ops::Range, time::Instant};
 pub(crate) const MOST_DEPTH: u32 = 256;
 const _: () = assert!(MOST_DEPTH < 1 << (32 - flag::BOUNCE_SHIFT));
 
-/// Finds what all paths hit, adds the light of lights among it, forks at shadow catchers, and looks up materials.
+/// Finds what all paths hit, adds the light of lights among it, and forks at shadow catchers.
 pub(crate) fn intersect(tracer: &Tracer<'_>, depth: u32, ws: &mut Workspace) {
     let Tracer { tables, transport, .. } = tracer;
     let Workspace { paths, nearest, deposits, statistics, times, .. } = ws;
@@ -45,7 +45,12 @@ pub(crate) fn intersect(tracer: &Tracer<'_>, depth: u32, ws: &mut Workspace) {
     let escaped = nearest.escaped.len();
     statistics.count_lanes(depth, LaneStage::Escaped, escaped.next_multiple_of(transport.execution.lanes()), escaped);
     catcher::fork(tables, paths, &mut nearest.hits);
-    dispatch!(transport.execution, l => list_materials(l, tables, &nearest.hits, &mut ws.materials.material_of));
+}
+
+/// Looks up the materials of what was hit.
+pub(crate) fn find_materials(tracer: &Tracer<'_>, ws: &mut Workspace) {
+    let Tracer { tables, transport, .. } = tracer;
+    dispatch!(transport.execution, l => list_materials(l, tables, &ws.nearest.hits, &mut ws.materials.material_of));
 }
 
 /// Takes paths through the media before what they hit.
@@ -59,7 +64,6 @@ pub(crate) fn pass_media(tracer: &Tracer<'_>, sample: &SampleContext<'_>, ws: &m
     }
     let context = MediumContext { tables, transport, sample };
     medium::pass(&context, &mut ws.paths, &mut ws.nearest, &mut ws.queues, &mut ws.deposits);
-    dispatch!(transport.execution, l => list_materials(l, tables, &ws.nearest.hits, &mut ws.materials.material_of));
 }
 
 /// Shades all surface hits, material by material, a chunk at a time.

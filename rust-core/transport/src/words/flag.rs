@@ -1,5 +1,7 @@
 //! Path flags (Cycles' path flags): what a path has met so far, as bits of one word.
 
+use gonio_simd::{Lanes, U};
+
 /// No scattering yet, at most ways straight through: the next hit is what the camera sees.
 pub(crate) const CAMERA: u32 = 1;
 /// The last scattering was specular (a delta lobe), so next event estimation has no share and the MIS weight is 1.
@@ -34,3 +36,11 @@ pub(crate) const STATE_SHIFT: u32 = 15;
 pub(crate) const STATES: u32 = (1 << (BOUNCE_SHIFT - STATE_SHIFT)) - 1;
 /// Above this bit: the number of scatterings.
 pub(crate) const BOUNCE_SHIFT: u32 = 23;
+
+/// The bits of the last and the first kind of scattering and of their number, for paths with flags `before` that are scattered once more.
+#[inline(always)]
+pub(crate) fn scattered<L: Lanes>(before: U<L>, kind: U<L>) -> U<L> {
+    let bounces = before >> BOUNCE_SHIFT;
+    let first = bounces.eq(0).select(kind << FIRST_SHIFT, before & (3 << FIRST_SHIFT));
+    (kind << LAST_SHIFT) | first | ((bounces + 1) << BOUNCE_SHIFT)
+}

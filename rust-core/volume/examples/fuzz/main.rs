@@ -5,6 +5,7 @@
 //! A panic, more than two seconds for one input, or more memory than 256 times the input's size and 16 MB is a finding: its bytes are
 //! written to `fuzz-volume-SEED.bin`, and the run ends with status 1. A node makes 4096 tiles of a kilobyte of masks: those need the factor.
 
+#[path = "../../../formats/examples/fuzz/memory.rs"]
 mod memory;
 mod mutate;
 mod seeds;

@@ -58,6 +58,7 @@ fn follow_bounce(
     if integrator.lit {
         steps::pass_media(tracer, sample, ws);
     }
+    steps::find_materials(tracer, ws);
     choose_closures(tables, transport, sample, &mut ws.paths, &ws.nearest.hits, &mut ws.materials, &mut ws.chunk, Some(&mut ws.deposits));
     sort_by_material(tables, transport, &mut ws.materials);
     ws.statistics.spent(Stage::Intersect, time);

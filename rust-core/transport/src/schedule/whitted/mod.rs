@@ -56,6 +56,7 @@ fn follow_batch(tracer: &Tracer<'_>, integrator: &WhittedIntegrator<'_>, sample:
     let Tracer { tables, transport, .. } = tracer;
     let start = Instant::now();
     steps::intersect(tracer, sample.depth, ws);
+    steps::find_materials(tracer, ws);
     ws.statistics.spent(Stage::Intersect, start);
     closures::keep(tables, &ws.materials, &ws.paths, &mut ws.queues.branches.undivided);
     for closure in 0..closures::most(tables) {

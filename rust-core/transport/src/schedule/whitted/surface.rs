@@ -201,8 +201,7 @@ fn flags<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, way: Way) -> 
         Way::Refracted => event::TRANSMISSION,
         Way::Straight => return point.core.flags | non_specular,
     };
-    let first = point.bounces.eq(0).select(l.u(kind << flag::FIRST_SHIFT), point.core.flags & (3 << flag::FIRST_SHIFT));
-    let before = (point.core.flags & flag::NON_SPECULAR_SEEN) | non_specular | first;
+    let before = (point.core.flags & flag::NON_SPECULAR_SEEN) | non_specular;
     let state = match &transport.passes.expressions {
         Some(expressions) => {
             let through = if way == Way::Refracted { scattering::THROUGH } else { 0 };
@@ -210,5 +209,5 @@ fn flags<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, way: Way) -> 
         }
         None => l.u(0),
     };
-    before | state | (flag::DELTA | kind << flag::LAST_SHIFT) | ((point.bounces + 1) << flag::BOUNCE_SHIFT)
+    before | state | flag::DELTA | flag::scattered(point.core.flags, l.u(kind))
 }

@@ -10,6 +10,7 @@ use crate::state::chunk::ChunkContext;
 use crate::state::queue::shadow_rays::{Along, ShadowLanes, ShadowRays};
 use crate::state::rays::RayLanes;
 use crate::state::vertex::{Interaction, Vertex};
+use crate::tables::Tables;
 use crate::tables::transport::Transport;
 use gonio_bsdf::Lobes;
 use gonio_light::{LightSample, LightSampleContext, SampleWeight};
@@ -69,13 +70,7 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
     // there as the triangle makes them (as in Cycles).
     let weight = weight.of(sample, pdf);
     let whole = f * sample.radiance * point.core.throughput * (weight / sample.pdf);
-    let mut value = transport.limits.clamped(whole, point.bounces + 1);
-    let mut ceiling = None;
-    if tables.lights.any_shaded() && transport.limits.clamps_any() {
-        // What is not known yet is clamped when it is.
-        value = tables.lights.is_shaded(l, sample.light).select(whole, value);
-        ceiling = Some(transport.limits.ceiling(point.bounces + 1));
-    }
+    let (value, ceiling) = clamped(tables, transport, sample.light, whole, point.bounces + 1);
     let lit = usable & value.is_lit() & value.abs().max_component().is_finite();
     deposits.note_lost(&point.at, present.and_not(lit));
     let code = with_sample(transport.passes.expressions.as_deref(), code_of_sampled(point.core.flags), point.core.flags, !wi.z.gt(0.0));
@@ -90,6 +85,24 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
             send(transport, (&point.at, ray), (sample, along), &light, lit, shadows, deposits);
         }
     }
+}
+
+/// The contribution of a light's sample within its limit, and the limit where that is yet to be applied.
+#[inline(always)]
+pub(crate) fn clamped<L: Lanes>(
+    tables: &Tables,
+    transport: &Transport,
+    light: U<L>,
+    whole: Spectrum<L>,
+    scattered: U<L>,
+) -> (Spectrum<L>, Option<F<L>>) {
+    let value = transport.limits.clamped(whole, scattered);
+    if !(tables.lights.any_shaded() && transport.limits.clamps_any()) {
+        return (value, None);
+    }
+    // What is not known yet is clamped when it is.
+    let value = tables.lights.is_shaded(light.lanes(), light).select(whole, value);
+    (value, Some(transport.limits.ceiling(scattered)))
 }
 
 /// Light from below the triangle that the shading normal takes for light from above: its shadow ray would start on the other side, and bring

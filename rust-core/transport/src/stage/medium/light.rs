@@ -10,8 +10,9 @@ use super::way::Way;
 use crate::accumulate::deposit::{Contribution, Deposits, code_of_found};
 use crate::accumulate::expression_sums::with_state;
 use crate::kernels;
+use crate::stage::light::nee::{clamped, send};
 use crate::stage::shade::catcher;
-use crate::state::queue::shadow_rays::{Along, ShadowLanes, ShadowRays};
+use crate::state::queue::shadow_rays::{Along, ShadowRays};
 use crate::state::vertex::Interaction;
 use crate::words::event;
 use gonio_camera::sampler::dimension;
@@ -67,40 +68,6 @@ impl<L: Lanes> Part<L> {
     }
 }
 
-/// The density of places by the angle that a point of the light sees them under.
-#[derive(Clone, Copy, Debug)]
-struct ByAngle<L: Lanes> {
-    /// Metres from the beginning of the part to what is nearest to the point, and from there to the point.
-    nearest: F<L>,
-    apart: F<L>,
-    /// Angles of the part's ends.
-    angles: [F<L>; 2],
-}
-
-impl<L: Lanes> ByAngle<L> {
-    #[inline(always)]
-    fn new(way: &LightWay<L>, point: Vec3<L>) -> Self {
-        let to = point - way.origin;
-        let nearest = to.dot(way.direction);
-        let apart = (to - way.direction * nearest).length().max(1e-6);
-        Self { nearest, apart, angles: [(-nearest).atan2(apart), (way.length - nearest).atan2(apart)] }
-    }
-
-    #[inline(always)]
-    fn draw(&self, u: F<L>, length: F<L>) -> F<L> {
-        let angle = self.angles[0].lerp(self.angles[1], u);
-        let (sin, cos) = angle.sin_cos();
-        (sin / cos.max(1e-7)).mul_add(self.apart, self.nearest).clamp(0.0, length)
-    }
-
-    #[inline(always)]
-    fn density(&self, distance: F<L>) -> F<L> {
-        let off = distance - self.nearest;
-        let span = (self.angles[1] - self.angles[0]).max(1e-6);
-        self.apart / (span * self.apart.mul_add(self.apart, off * off))
-    }
-}
-
 /// A place of each way to be lit.
 #[derive(Clone, Copy, Debug)]
 struct Place<L: Lanes> {
@@ -129,10 +96,10 @@ fn place<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>) -> Place<L> {
     let found = point.pdf.gt(0.0);
     let near = centre.max_abs().lt(FAR) & (!found | point.distance.lt(FAR));
     let aim = found.select(nearest + point.wi * point.distance.min(FAR), centre);
-    let by_angle = ByAngle::new(&part, aim);
+    let by_angle = part.seen_from(aim, l.f(0.0));
     let [u_way, u] = context.pair(l, slot, dimension::MEDIUM_PLACE);
     let angular = near & u_way.lt(EQUIANGULAR);
-    let distance = angular.select(by_angle.draw(u, part.length), by_distance.draw([u_channel, u]));
+    let distance = angular.select(by_angle.draw(u).clamp(0.0, part.length), by_distance.draw([u_channel, u]));
     let drawn = by_distance.density(distance);
     let pdf = near.select(by_angle.density(distance).lerp(drawn, 1.0 - EQUIANGULAR), drawn);
     Place { distance: from + distance, pdf: pdf.keep_if(reached), light }
@@ -160,20 +127,15 @@ pub(super) fn sample<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>, chosen
     let weight = weight * tables.lights.scattered_factor(l, sample.light, l.u(event::VOLUME));
     let left = way.transmittance(distance) * way.phase.scattering;
     let whole = sample.radiance * way.core.throughput * left * phase * (weight / (sample.pdf * place_pdf));
-    let value = transport.limits.clamped(whole, way.bounces() + 1);
+    let (value, ceiling) = clamped(tables, transport, sample.light, whole, way.bounces() + 1);
     let lit = usable & value.is_lit() & value.abs().max_component().is_finite();
-    let expressions = transport.passes.expressions.as_deref();
     let flags = flags(context, way);
-    let code = with_state(expressions, code_of_found(flags, 0), flags);
-    let light = Contribution::sampled(sample.light, way.core.slot, value, code, None);
-    let at = floating(&from);
-    deposits.deposit(transport, &light, lit.and_not(sample.casts_shadow));
-    let along = Along::new(tables, transport, way.core.media, way.core.counts, Some(transport.limits.ceiling(way.bounces() + 1)));
-    let Contribution { slot, value: contribution, code, .. } = light;
+    let code = with_state(transport.passes.expressions.as_deref(), code_of_found(flags, 0), flags);
     let shares = if deposits.wants_shares(transport) { Some([Spectrum::one(l), Spectrum::zero(l)]) } else { None };
-    let ray = at.spawn_ray_to(&sample);
-    let receiver = if deposits.arrivals.is_some() { Some(at.receiver) } else { None };
-    shadows.append(&ShadowLanes { ray, contribution, slot, code, light: sample.light, shares, receiver, along }, lit & sample.casts_shadow);
+    let light = Contribution::sampled(sample.light, way.core.slot, value, code, shares);
+    let along = Along::new(tables, transport, way.core.media, way.core.counts, ceiling);
+    let at = floating(&from);
+    send(transport, (&at, at.spawn_ray_to(&sample)), (&sample, along), &light, lit, shadows, deposits);
 }
 
 /// The probability with which a light is selected at a place, as the weights of rays that find it have it.

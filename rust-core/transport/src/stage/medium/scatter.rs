@@ -29,11 +29,9 @@ pub(super) fn light_context<L: Lanes>(position: Vec3<L>) -> LightSampleContext<L
 #[inline(always)]
 pub(super) fn flags<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>) -> U<L> {
     let (l, before) = (way.pdf.lanes(), way.core.flags);
-    let kind = l.u(event::VOLUME);
-    let first = way.bounces().eq(0).select(kind << flag::FIRST_SHIFT, before & (3 << flag::FIRST_SHIFT));
     // Light paths bring nothing to what floats.
     let kept = before & (flag::FROM_LIGHT | flag::SEEN_DIRECTLY);
-    let scattered = kept | first | (kind << flag::LAST_SHIFT) | ((way.bounces() + 1) << flag::BOUNCE_SHIFT);
+    let scattered = kept | flag::scattered(before, l.u(event::VOLUME));
     let state = match &context.transport.passes.expressions {
         Some(expressions) => expressions.step(before, l.u(scattering::VOLUME)),
         None => l.u(0),

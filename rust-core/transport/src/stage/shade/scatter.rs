@@ -147,15 +147,8 @@ fn flags<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, sample: &Bsdf
     let l = chunk.l;
     let delta = sample.delta.select(l.u(flag::DELTA), l.u(0));
     let kind = sample.diffuse.select(l.u(event::DIFFUSE), sample.transmitted.select(l.u(event::TRANSMISSION), l.u(event::GLOSSY)));
-    let first = point.bounces.eq(0).select(kind << flag::FIRST_SHIFT, point.core.flags & (3 << flag::FIRST_SHIFT));
     let kept = left_to_light_paths(chunk, point, sample);
-    let scattered = delta
-        | non_specular
-        | kept
-        | clear(chunk, point, sample)
-        | (kind << flag::LAST_SHIFT)
-        | first
-        | ((point.bounces + 1) << flag::BOUNCE_SHIFT);
+    let scattered = delta | non_specular | kept | clear(chunk, point, sample) | flag::scattered(point.core.flags, kind);
     match &chunk.transport.passes.expressions {
         Some(expressions) => {
             let event = scattering_of(l, [sample.diffuse, sample.delta, !sample.wi.z.gt(0.0)]);

@@ -1,5 +1,6 @@
 //! Emission: light paths start at lights, or with rays of a table (pbrt's `Light::SampleLe`).
 
+use crate::media::set::MediaSet;
 use crate::state::light_paths::LightStarts;
 use crate::state::path_core::PathCore;
 use crate::state::paths::{PathLanes, Paths};
@@ -52,7 +53,7 @@ pub(crate) fn emit<L: Lanes>(
         ray.light.store(&mut starts.light, first as usize);
         ray.clear.store(&mut starts.clear, first as usize);
         let carries = ray.flux.is_lit() & ray.flux.abs().max_component().is_finite();
-        paths.append(&started(l, &ray, slot), carries);
+        paths.append(&started(l, tables, &ray, slot), carries);
     }
 }
 
@@ -75,11 +76,12 @@ fn numbers<L: Lanes>(l: L, count: usize, batch: u64, first: u32) -> U<L> {
 }
 
 #[inline(always)]
-fn started<L: Lanes>(l: L, ray: &EmittedRay<L>, slot: U<L>) -> PathLanes<L> {
+fn started<L: Lanes>(l: L, tables: &Tables, ray: &EmittedRay<L>, slot: U<L>) -> PathLanes<L> {
     let off = ray.origin.max_abs() * OFFSET;
     let from = LightSampleContext { position: ray.origin, normal: ray.normal, receiver: l.u(0) };
     let ray = RayLanes { origin: ray.normal.mul_add(off, ray.origin), direction: ray.direction, t_min: l.f(0.0), t_max: l.f(f32::MAX) };
     // Seen by what sees shadow rays, as all that a light sends.
-    let core = PathCore::new(l, slot, l.u(flag::DELTA | flag::FROM_LIGHT));
+    let media = MediaSet::everywhere(l, &tables.materials.media);
+    let core = PathCore { media, ..PathCore::new(l, slot, l.u(flag::DELTA | flag::FROM_LIGHT)) };
     PathLanes::start(ray, core).leaving(from, l.f(1.0))
 }

@@ -3,7 +3,7 @@
 //! A ray from the place leaves each mesh that holds it once more than it enters it. Cycles fills its stack of volumes in the same way.
 
 use crate::accumulate::deposit::film_numbers;
-use crate::media::set::MediaColumns;
+use crate::media::set::{MediaColumns, MediaSet};
 use crate::stage::find::closures::{ClosureHits, MaterialHits, each_closure};
 use crate::stage::find::sort::for_materials;
 use crate::state::rays::Rays;
@@ -22,9 +22,9 @@ const MOST: usize = 4096;
 
 /// The names of the media at a place in rebased world space, and the absorption a metre of the solid about it, R, G, B.
 pub(super) fn media_at(tables: &Tables, origin: [f32; 3]) -> ([u32; 2], [f32; 3]) {
-    let everywhere = tables.materials.media.everywhere;
+    let table = &tables.materials.media;
     if !tables.bodies.absorbing.iter().any(|body| body.may_hold(origin)) {
-        return ([everywhere, 0], [0.0; 3]);
+        return ([table.everywhere, 0], [0.0; 3]);
     }
     let mut rays = Rays::new(PADDING, ray_mask::ALL);
     for axis in 0..3 {
@@ -32,7 +32,7 @@ pub(super) fn media_at(tables: &Tables, origin: [f32; 3]) -> ([u32; 2], [f32; 3]
         rays.direction[axis][0] = DIRECTION[axis];
     }
     let mut media = MediaColumns::new(PADDING);
-    media.fill(1, everywhere);
+    media.store(MediaSet::everywhere(One, table), 0);
     start_media(tables, Execution::Scalar, &tables.bodies.absorbing, &rays, 1, &mut media, &mut StartRoom::default());
     let (names, solid) = media.load(One, 0).parts();
     (names.map(|word| word.0), film_numbers(solid))
