@@ -50,7 +50,7 @@ const CRATES: [(&str, &[&str]); 16] = [
     ("bsdf", &["simd", "formats", "table"]),
     ("light", &["simd", "image", "table"]),
     ("nodes", &["simd"]),
-    ("scene", &["formats", "image", "nodes"]),
+    ("scene", &["formats", "image", "nodes", "volume"]),
     ("transport", &["simd", "accel", "image", "bsdf", "light", "camera", "nodes"]),
     ("engine", &["simd", "formats", "mesh", "accel", "image", "table", "camera", "bsdf", "light", "nodes", "scene", "transport"]),
 ];

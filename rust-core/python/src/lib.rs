@@ -8,6 +8,7 @@ mod curves;
 mod daylight;
 mod description;
 mod error;
+mod field;
 mod film;
 mod glare;
 mod goniometer;

@@ -6,6 +6,7 @@ use crate::{
     daylight::{self, Daylight},
     description,
     error::{exception, setting},
+    field,
     measured::MeasuredBsdf,
     mesh::MeshBuffers,
     mesh_file, settings,
@@ -355,7 +356,37 @@ impl Scene {
         description::put(&mut self.scene.measured, "measured", element, index)
     }
 
-    /// Keeps the first `n` elements of a kind: meshes, curves, points, instances, materials, textures, measured, lights, cameras, meters or grids.
+    /// Adds a field described as in `to_dict`, or replaces field `index`; gives its number, which media name as `field`.
+    ///
+    /// `density` and `heat` are arrays (nx, ny, nz), or a file and the name of its grid. The description's `to_world` leads to the world from an array's
+    /// voxels, whose centres are whole numbers, or from the file's space.
+    #[pyo3(signature = (description, index = None, *, density, heat = None))]
+    fn put_field(
+        &mut self,
+        py: Python<'_>,
+        description: &Bound<'_, PyDict>,
+        index: Option<u32>,
+        density: field::Source<'_>,
+        heat: Option<field::Source<'_>>,
+    ) -> PyResult<u32> {
+        let described = description::read(description, "field")?;
+        let field = field::filled(py, described, &density, heat.as_ref())?;
+        description::put(&mut self.scene.fields, "field", field, index)
+    }
+
+    /// Adds the box about a field as a mesh, or replaces mesh `index`; gives its number, and the map that places it, a 4×4 matrix for column vectors.
+    #[pyo3(signature = (field, index = None))]
+    fn put_field_box(&mut self, field: u32, index: Option<u32>) -> PyResult<(u32, [[f64; 4]; 4])> {
+        let count = self.scene.fields.len();
+        let wrong = || PyValueError::new_err(format!("field {field} was asked for, the scene has {count}"));
+        let field = self.scene.fields.get(field as usize).ok_or_else(wrong)?;
+        let [x, y, z, t] = field.to_world.columns;
+        let row = |axis: usize| [x[axis], y[axis], z[axis], t[axis]];
+        let place = [row(0), row(1), row(2), [0.0, 0.0, 0.0, 1.0]];
+        Ok((description::put(&mut self.scene.meshes, "mesh", field.mesh(), index)?, place))
+    }
+
+    /// Keeps the first `n` elements of a kind: meshes, curves, points, instances, materials, textures, measured, fields, lights, cameras, meters or grids.
     fn truncate(&mut self, kind: &str, n: usize) -> PyResult<()> {
         let scene = &mut self.scene;
         match kind {
@@ -366,12 +397,13 @@ impl Scene {
             "materials" => scene.materials.truncate(n),
             "textures" => scene.textures.truncate(n),
             "measured" => scene.measured.truncate(n),
+            "fields" => scene.fields.truncate(n),
             "lights" => scene.lights.truncate(n),
             "cameras" => scene.cameras.truncate(n),
             "meters" => scene.meters.truncate(n),
             "grids" => scene.grids.truncate(n),
             other => {
-                let expected = "meshes, curves, points, instances, materials, textures, measured, lights, cameras, meters or grids";
+                let expected = "meshes, curves, points, instances, materials, textures, measured, fields, lights, cameras, meters or grids";
                 return Err(setting("kind", format!("'{other}' was found, expected {expected}")));
             }
         }

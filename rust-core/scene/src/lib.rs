@@ -15,6 +15,7 @@ mod dicing;
 mod digest;
 mod displacement;
 pub mod error;
+mod field;
 mod goniogram;
 mod instance;
 mod light;
@@ -48,6 +49,7 @@ pub use dicing::Dicing;
 pub use digest::{Digest, Digesting};
 pub use displacement::{Displacement, DisplacementKind};
 pub use error::{Diagnostic, Error, Result, Severity};
+pub use field::{BRICK, Field, Lattice};
 pub use gonio_formats::photometry::{Opening, OpeningShape, PhotometricType};
 pub use gonio_nodes::{
     Channel, Graph, Input, LightPathValue, Node, NodeId, Operation, Quantity, Space, TextureFilter, TextureId, WrapMode,
@@ -108,6 +110,10 @@ id!(
     /// A measured BSDF of the scene.
     MeasuredId
 );
+id!(
+    /// A field of the scene.
+    FieldId
+);
 
 /// Everything that is rendered.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -129,6 +135,9 @@ pub struct Scene {
     /// Measured BSDFs, shared by closures.
     #[serde(default)]
     pub measured: Vec<MeasuredBsdf>,
+    /// What varies within media.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub fields: Vec<Field>,
     /// Light sources other than emissive materials.
     pub lights: Vec<Light>,
     /// Cameras; [`Settings::camera`] chooses one.
@@ -189,6 +198,20 @@ impl Scene {
     pub fn add_measured(&mut self, measured: MeasuredBsdf) -> MeasuredId {
         self.measured.push(measured);
         MeasuredId(id_of(self.measured.len()))
+    }
+    /// Adds a field.
+    pub fn add_field(&mut self, field: Field) -> FieldId {
+        self.fields.push(field);
+        FieldId(id_of(self.fields.len()))
+    }
+    /// Adds a field, its box and what fills that: a volume.
+    pub fn add_volume(&mut self, field: Field, medium: Medium) -> &mut Instances {
+        let (origin, to_world) = (field.origin.clone(), field.to_world);
+        let mesh = self.add_mesh(field.mesh());
+        let medium = Medium { field: Some(self.add_field(field)), ..medium };
+        let material = self.add_material(Material::volume(origin.clone(), medium));
+        self.instances.push(Instances::new(origin, mesh, vec![material], vec![to_world]));
+        self.instances.last_mut().expect("it was added")
     }
 }
 

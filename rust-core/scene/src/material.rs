@@ -256,6 +256,12 @@ impl Material {
         surface.set("specular_weight", 0.0);
         Self::of(origin, surface)
     }
+    /// Nothing at its surface, a medium behind it.
+    pub fn volume(origin: Origin, medium: Medium) -> Self {
+        let mut surface = Closure { model: Model::Transparent, ..Closure::default() };
+        surface.set_colour("base_color", [1.0; 3]);
+        Self { medium, ..Self::of(origin, surface) }
+    }
     /// A material of one closure, without a graph.
     pub fn of(origin: Origin, closure: Closure) -> Self {
         Self { origin, closures: vec![closure], ..Self::default() }

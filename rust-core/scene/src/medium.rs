@@ -1,8 +1,9 @@
 //! Participating media: what fills closed meshes, or all of space.
 
+use super::FieldId;
 use serde::{Deserialize, Serialize};
 
-/// An even medium. Coefficients are a metre, R, G, B, 0 or more.
+/// A medium, even or by a field. Coefficients are a metre, R, G, B, 0 or more.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Medium {
@@ -14,6 +15,9 @@ pub struct Medium {
     pub emission: [f32; 3],
     /// Mean cosine g of the angle by which it scatters (Henyey and Greenstein): above 0 forwards, below 0 back.
     pub anisotropy: f32,
+    /// What its coefficients are multiplied by from place to place; `None` where it is even.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub field: Option<FieldId>,
 }
 
 /// The contrast that a black thing before the sky keeps at the visibility: the meteorological optical range of CIE and WMO.
@@ -26,7 +30,7 @@ impl Medium {
     pub fn haze(extinction: f64, albedo: [f32; 3], anisotropy: f32) -> Self {
         let scattering = albedo.map(|part| (extinction * f64::from(part)) as f32);
         let absorption = albedo.map(|part| (extinction * (1.0 - f64::from(part))) as f32);
-        Self { absorption, scattering, emission: [0.0; 3], anisotropy }
+        Self { absorption, scattering, emission: [0.0; 3], anisotropy, field: None }
     }
     /// The extinction a metre at which contrast falls to a part after so many metres (Koschmieder).
     pub fn extinction_of(visibility: f64, contrast: f64) -> f64 {

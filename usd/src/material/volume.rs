@@ -25,8 +25,8 @@ pub(super) fn read<'py>(context: &mut Context<'_, 'py>, material: &Prim<'py>) ->
 /// So much of a medium.
 fn scaled(medium: Medium, by: f32) -> Medium {
     let times = |part: [f32; 3]| part.map(|x| x * by);
-    let Medium { absorption, scattering, emission, anisotropy } = medium;
-    Medium { absorption: times(absorption), scattering: times(scattering), emission: times(emission), anisotropy }
+    let Medium { absorption, scattering, emission, .. } = medium;
+    Medium { absorption: times(absorption), scattering: times(scattering), emission: times(emission), ..medium }
 }
 
 /// Both together, scattering by the mean of their angles.
@@ -38,6 +38,7 @@ fn sum(a: Medium, b: Medium) -> Medium {
         scattering: plus(a.scattering, b.scattering),
         emission: plus(a.emission, b.emission),
         anisotropy: (own * a.anisotropy + other * b.anisotropy) / (own + other).max(f32::MIN_POSITIVE),
+        field: a.field.or(b.field),
     }
 }
 
@@ -66,6 +67,7 @@ fn convert(network: &mut Network<'_>, shader: &Shader) -> Option<Medium> {
             absorption: colour(network, shader, "absorption")?,
             scattering: colour(network, shader, "scattering")?,
             anisotropy: network.number(shader, "anisotropy", 0.0),
+            field: None,
             ..Medium::default()
         }),
         "add" => Some(sum(part(network, "in1")?, part(network, "in2")?)),

@@ -43,3 +43,18 @@ def haze(visibility: float, *, contrast: float = 0.05, albedo: Coefficient = 1.0
         scattering=[extinction * each for each in scattered],
         anisotropy=anisotropy,
     )
+
+
+def volume_material(name: str, inside: dict[str, Any]) -> dict[str, Any]:
+    """The description of a material with nothing at its surface and a medium behind it."""
+    white = {"Constant": [1.0, 1.0, 1.0, 1.0]}
+    closure = {"weight": white, "model": "Transparent", "parameters": [["base_color", white]]}
+    return {"origin": name, "closures": [closure], "medium": inside}
+
+
+def of_voxels(to_world: dict[str, Any], edges: Sequence[float]) -> dict[str, Any]:
+    """A map from an array's voxels, whose centres are whole numbers and which fill a box from 0 on, each of these edges."""
+    *axes, origin = to_world["columns"]
+    scaled = [[edge * part for part in axis] for axis, edge in zip(axes, edges, strict=True)]
+    corner = [place + sum(axis[part] * 0.5 for axis in scaled) for part, place in enumerate(origin)]
+    return {"columns": [*scaled, corner]}

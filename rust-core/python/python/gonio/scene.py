@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Unpack
 from . import _gonio
 from .description import camera, columns, material, measurand, numbers
 from .light import Photometry, light
+from .medium import Coefficient, medium, of_voxels, volume_material
 from .texture import Texture, described
 
 if TYPE_CHECKING:
@@ -82,6 +83,36 @@ class Scene(_gonio.Scene):
         else:
             number = self.put_texture(described(name or "texture", colour_space), pixels=image)
         return Texture(number, uv, wrap, (along[0], along[1]))
+
+    def add_volume(
+        self,
+        density: Numbers | tuple[str | os.PathLike[str], str],
+        *,
+        heat: Numbers | tuple[str | os.PathLike[str], str] | None = None,
+        scattering: Coefficient = 1.0,
+        absorption: Coefficient = 0.0,
+        emission: Coefficient = 0.0,
+        anisotropy: float = 0.0,
+        glow: Sequence[Sequence[float]] = (),
+        voxel: float | Sequence[float] = 1.0,
+        transform: Matrix | None = None,
+        name: str = "volume",
+    ) -> int:
+        """Adds smoke, a cloud or fire; gives the number of its field. `density`, an array (nx, ny, nz) or a VDB file and the name of its grid,
+        multiplies scattering and absorption, 1/m; `heat`, likewise, the emission, cd/m² a metre, by the factors of `glow`, evenly from no heat to
+        the most. An array fills a box from the origin on, `voxel` metres a voxel; `transform` places that, or the file's space.
+        """
+        to_world = columns(transform)
+        if not isinstance(density, tuple):
+            edges = numbers("voxel", [voxel] * 3 if isinstance(voxel, (int, float)) else voxel, 3)
+            to_world = of_voxels(to_world, edges)
+        described = {"origin": name, "to_world": to_world, "glow": [numbers("glow", factor, 3) for factor in glow]}
+        field = self.put_field(described, density=density, heat=heat)
+        box, placed = self.put_field_box(field)
+        inside = medium(scattering=scattering, absorption=absorption, emission=emission, anisotropy=anisotropy)
+        filled = self.put_material(volume_material(name, {**inside, "field": field}))
+        self.add_instance(box, [filled], transform=placed, name=name)
+        return field
 
     def add_material(self, name: str = "material", **parameters: float | bool | Sequence[float] | Texture) -> int:
         """Adds a material: keyword arguments are surface parameters by their OpenPBR names, numbers, triples or textures, and `normal`, a texture

@@ -1,0 +1,62 @@
+//! Fields of media in Python: arrays, or grids of OpenVDB's and NanoVDB's files.
+
+use crate::{buffer::floats, error::setting};
+use gonio::scene::{Field, Lattice};
+use gonio_volume::{Grid, Transform};
+use pyo3::{exceptions::PyValueError, prelude::*};
+use std::path::PathBuf;
+
+/// Where a field's numbers come from.
+#[derive(FromPyObject)]
+pub(crate) enum Source<'py> {
+    /// A file and the name of its grid.
+    File(PathBuf, String),
+    /// An array (nx, ny, nz).
+    Array(Bound<'py, PyAny>),
+}
+
+/// A described field with its numbers.
+pub(crate) fn filled(py: Python<'_>, described: Field, density: &Source<'_>, heat: Option<&Source<'_>>) -> PyResult<Field> {
+    let told = |problem: String| setting(&described.origin.to_string(), problem);
+    let Field { origin, to_world, glow, hottest, .. } = described.clone();
+    let mut field = match (density, heat) {
+        (Source::File(path, name), None) => {
+            py.detach(|| Field::read(origin, path, name, None, &to_world)).map_err(told)?
+        }
+        (Source::File(path, name), Some(Source::File(other, heat))) if path == other => {
+            py.detach(|| Field::read(origin, path, name, Some(heat), &to_world)).map_err(told)?
+        }
+        (Source::Array(density), heat) => {
+            let density = lattice(py, density, "density")?;
+            let heat = match heat {
+                Some(Source::Array(heat)) => Some(lattice(py, heat, "heat")?),
+                Some(Source::File(..)) => return Err(told("density is an array, heat is to be one, too".into())),
+                None => None,
+            };
+            if let Some(heat) = heat.as_ref().filter(|heat| heat.domain != density.domain) {
+                return Err(told(format!("heat fills {:?}, density {:?}: expected arrays of one shape", heat.domain, density.domain)));
+            }
+            Field { density, heat, ..described }
+        }
+        _ => return Err(told("density is a grid of a file, heat is to be one of the same file".into())),
+    };
+    field.glow = glow;
+    field.hottest = if hottest > 0.0 { hottest } else { field.heat.as_ref().map_or(0.0, Lattice::most) };
+    Ok(field)
+}
+
+fn lattice(py: Python<'_>, array: &Bound<'_, PyAny>, name: &str) -> PyResult<Lattice> {
+    let shape: Vec<usize> = array.getattr("shape")?.extract()?;
+    let [x, y, z] = shape[..] else {
+        return Err(PyValueError::new_err(format!("{name}: the shape is {shape:?}, expected (nx, ny, nz)")));
+    };
+    if shape.contains(&0) {
+        return Err(PyValueError::new_err(format!("{name}: the shape is {shape:?}, expected numbers above 0")));
+    }
+    let values = floats(&array.call_method1("reshape", (-1,))?, name, 1)?.values;
+    let made = py.detach(|| {
+        let grid = Grid::from_dense(name, &values, [x, y, z], Transform::uniform(1.0, [0.0; 3])).map_err(|error| error.to_string())?;
+        Lattice::of_grid(&grid, Some([x, y, z]))
+    });
+    made.map_err(PyValueError::new_err)
+}

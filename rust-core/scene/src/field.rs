@@ -1,0 +1,174 @@
+//! Fields: what varies from place to place within a medium, by a lattice of numbers.
+
+use super::{Mesh, Origin, Transform, blob};
+use gonio_volume::{BRICK_VOXELS, Grid, open};
+use serde::{Deserialize, Serialize};
+use std::{path::Path, sync::Arc};
+
+/// Points along a brick's edge.
+pub const BRICK: i32 = 8;
+
+/// Numbers at points of whole coordinates, trilinear between them: bricks of 8³ points, evenly filled blocks, and 0 elsewhere.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Lattice {
+    /// The box that it fills, lattice coordinates: least and greatest.
+    pub domain: [[f32; 3]; 2],
+    /// Points outside have the value of the nearest within these, both inclusive; `None` where they are 0.
+    pub extended: Option<[[i32; 3]; 2]>,
+    /// The least point of each brick, multiples of 8.
+    #[serde(with = "blob")]
+    pub bricks: Arc<[[i32; 3]]>,
+    /// 512 values a brick, z fastest.
+    #[serde(with = "blob")]
+    pub values: Arc<[f32]>,
+    /// The least point of each block that is filled evenly, multiples of 8.
+    #[serde(with = "blob")]
+    pub blocks: Arc<[[i32; 3]]>,
+    /// Value of each.
+    #[serde(with = "blob")]
+    pub block_values: Arc<[f32]>,
+}
+
+/// Blocks of 8³ points that even tiles of a grid may come to.
+const MOST_BLOCKS: u64 = 1 << 24;
+
+impl Lattice {
+    /// That of a volume grid. Where `edges` is set, its array reaches to the outer faces of its voxels, and keeps its value there; else it fades to
+    /// the background over one voxel beyond the active ones. Vectors count by their mean.
+    ///
+    /// # Errors
+    ///
+    /// If nothing is active, a value is no number, or tiles come to too many blocks.
+    pub fn of_grid(grid: &Grid, edges: Option<[usize; 3]>) -> Result<Self, String> {
+        let scalar = |[x, y, z]: [f32; 3]| if x == y && y == z { x } else { (x + y + z) / 3.0 };
+        if grid.not_finite() > 0 {
+            return Err(format!("grid '{}': {} values are not finite", grid.name, grid.not_finite()));
+        }
+        let (domain, extended) = match edges {
+            Some(shape) => {
+                let last = shape.map(|n| n as i32 - 1);
+                ([[-0.5; 3], last.map(|x| x as f32 + 0.5)], Some([[0; 3], last]))
+            }
+            None => {
+                let [min, max] = grid.bounds().ok_or_else(|| format!("grid '{}' is empty: no voxel is active", grid.name))?;
+                ([min.map(|x| x as f32 - 1.0), max.map(|x| x as f32 + 1.0)], None)
+            }
+        };
+        let tiles = grid.tiles.iter().filter(|tile| tile.value != [0.0; 3]);
+        let count: u64 = tiles.clone().map(|tile| 1u64 << (3 * (u32::from(tile.log2_edge) - 3))).sum();
+        if count > MOST_BLOCKS {
+            return Err(format!("grid '{}': its even tiles come to {count} blocks of 8³ voxels, at most {MOST_BLOCKS} are held", grid.name));
+        }
+        let (mut blocks, mut block_values) = (Vec::new(), Vec::new());
+        for tile in tiles {
+            let edge = 1 << (tile.log2_edge - 3);
+            for n in 0..edge * edge * edge {
+                let step = [n / (edge * edge), n / edge % edge, n % edge];
+                blocks.push([0, 1, 2].map(|axis| tile.origin[axis] + BRICK * step[axis]));
+                block_values.push(scalar(tile.value));
+            }
+        }
+        let values = (0..grid.bricks.len() * BRICK_VOXELS).map(|voxel| scalar(grid.values.get(voxel)));
+        Ok(Self {
+            domain,
+            extended,
+            bricks: grid.bricks.iter().map(|brick| brick.origin).collect(),
+            values: values.collect(),
+            blocks: blocks.into(),
+            block_values: block_values.into(),
+        })
+    }
+
+    /// Another of its shape, each value another one; 0 stays 0.
+    #[must_use]
+    pub fn mapped(&self, value: impl Fn(f32) -> f32) -> Self {
+        let mapped = |values: &[f32]| values.iter().map(|x| value(*x)).collect();
+        Self { values: mapped(&self.values), block_values: mapped(&self.block_values), ..self.clone() }
+    }
+
+    /// The greatest value, 0 where there is none above.
+    pub fn most(&self) -> f32 {
+        self.values.iter().chain(&*self.block_values).copied().fold(0.0, f32::max)
+    }
+}
+
+/// What varies within a medium. A medium that names one absorbs and scatters by its coefficients times the density, and sends its emission times what
+/// the heat says.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Field {
+    /// Where it came from.
+    pub origin: Origin,
+    /// From the lattice to the world.
+    pub to_world: Transform,
+    /// The density; below 0 it counts as 0.
+    pub density: Lattice,
+    /// What the emission follows; `None` where that is even.
+    pub heat: Option<Lattice>,
+    /// Factors on the emission, R, G, B, evenly from no heat to the greatest, linear between them; the heat itself where there are none.
+    pub glow: Vec<[f32; 3]>,
+    /// The heat of the last factor; above it, that stays.
+    pub hottest: f32,
+}
+
+impl Field {
+    /// That of a file's grids, placed by a map from the file's space to the world.
+    ///
+    /// # Errors
+    ///
+    /// If the file cannot be read, has no such grid, or the two grids lie on different lattices.
+    pub fn read(origin: Origin, path: &Path, density: &str, heat: Option<&str>, to_world: &Transform) -> Result<Self, String> {
+        let file = open(path).map_err(|error| error.to_string())?;
+        let grid = |name: &str| file.read_named(name).map_err(|error| error.to_string());
+        let density = grid(density)?;
+        let heat = heat.map(grid).transpose()?;
+        if let Some(heat) = heat.as_ref().filter(|heat| heat.transform != density.transform) {
+            return Err(format!("the grids '{}' and '{}' have voxels of different places or sizes; resample one", density.name, heat.name));
+        }
+        let inner = Transform::from_row_vector_matrix(&density.transform.0);
+        let heat = heat.map(|grid| Lattice::of_grid(&grid, None)).transpose()?;
+        let hottest = heat.as_ref().map_or(0.0, Lattice::most);
+        let density = Lattice::of_grid(&density, None)?;
+        Ok(Self { origin, to_world: to_world.after(&inner), density, heat, glow: Vec::new(), hottest })
+    }
+
+    /// The box about all of it, lattice coordinates.
+    pub fn domain(&self) -> [[f32; 3]; 2] {
+        let [min, max] = self.density.domain;
+        match self.heat.as_ref().map(|heat| heat.domain) {
+            Some([low, high]) => [[0, 1, 2].map(|axis| min[axis].min(low[axis])), [0, 1, 2].map(|axis| max[axis].max(high[axis]))],
+            None => [min, max],
+        }
+    }
+
+    /// The box as a mesh in lattice coordinates, whose faces look outwards; [`Field::to_world`] places it.
+    pub fn mesh(&self) -> Mesh {
+        let domain = self.domain();
+        let corner = |n: usize| [0, 1, 2].map(|axis| domain[n >> axis & 1][axis]);
+        let points: Vec<[f32; 3]> = (0..8).map(corner).collect();
+        let quads = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+        let triangles: Vec<[u32; 3]> = quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+        Mesh { origin: self.origin.clone(), points: points.into(), triangles: triangles.into(), ..Mesh::default() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use gonio_volume::Transform as GridTransform;
+
+    #[test]
+    fn faces_of_the_box_look_outwards() {
+        let grid = Grid::from_dense("density", &[1.0; 24], [2, 3, 4], GridTransform::uniform(1.0, [0.0; 3])).expect("a grid");
+        let field = Field { density: Lattice::of_grid(&grid, Some([2, 3, 4])).expect("a lattice"), ..Field::default() };
+        assert_eq!(field.domain(), [[-0.5; 3], [1.5, 2.5, 3.5]]);
+        let mesh = field.mesh();
+        let volume: f32 = mesh.triangles.iter().map(|triangle| determinant(triangle.map(|point| mesh.points[point as usize]))).sum();
+        assert!((volume / 6.0 - 24.0).abs() < 1e-4, "{volume}");
+    }
+
+    fn determinant([a, b, c]: [[f32; 3]; 3]) -> f32 {
+        a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])
+    }
+}
