@@ -19,6 +19,8 @@ pub enum Stage {
     Light,
     /// Paths that start at lights.
     LightPaths,
+    /// Whole renders of haze, smoke and a cloud.
+    Media,
     /// Elementary functions, gathers, compaction.
     Function,
     /// From scene-linear light to display values.
@@ -37,7 +39,7 @@ pub enum Stage {
 
 impl Stage {
     /// All stages in the order of a path.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Generation,
         Self::Traversal,
         Self::Triangle,
@@ -46,6 +48,7 @@ impl Stage {
         Self::Bsdf,
         Self::Light,
         Self::LightPaths,
+        Self::Media,
         Self::Function,
         Self::Tone,
         Self::Render,
@@ -65,6 +68,7 @@ impl Stage {
             Self::Bsdf => "bsdf",
             Self::Light => "light",
             Self::LightPaths => "light-paths",
+            Self::Media => "media",
             Self::Function => "function",
             Self::Tone => "tone",
             Self::Render => "render",

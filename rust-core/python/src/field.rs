@@ -1,10 +1,13 @@
 //! Fields of media in Python: arrays, or grids of OpenVDB's and NanoVDB's files.
 
 use crate::{buffer::floats, error::setting};
-use gonio::scene::{Field, Lattice};
-use gonio_volume::{Grid, Transform};
+use gonio::{
+    Error,
+    compile::baked_field::{Recipe, bake},
+    scene::{Field, Graph, Input, Lattice, Texture},
+};
 use pyo3::{exceptions::PyValueError, prelude::*};
-use std::path::PathBuf;
+use std::{path::PathBuf, sync::atomic::AtomicBool};
 
 /// Where a field's numbers come from.
 #[derive(FromPyObject)]
@@ -20,9 +23,7 @@ pub(crate) fn filled(py: Python<'_>, described: Field, density: &Source<'_>, hea
     let told = |problem: String| setting(&described.origin.to_string(), problem);
     let Field { origin, to_world, glow, hottest, .. } = described.clone();
     let mut field = match (density, heat) {
-        (Source::File(path, name), None) => {
-            py.detach(|| Field::read(origin, path, name, None, &to_world)).map_err(told)?
-        }
+        (Source::File(path, name), None) => py.detach(|| Field::read(origin, path, name, None, &to_world)).map_err(told)?,
         (Source::File(path, name), Some(Source::File(other, heat))) if path == other => {
             py.detach(|| Field::read(origin, path, name, Some(heat), &to_world)).map_err(told)?
         }
@@ -45,6 +46,21 @@ pub(crate) fn filled(py: Python<'_>, described: Field, density: &Source<'_>, hea
     Ok(field)
 }
 
+/// A described field whose numbers a graph gives.
+pub(crate) fn baked(
+    described: Field,
+    (graph, textures): (&Graph, &[Texture]),
+    (density, heat): (Input, Option<Input>),
+    domain: [[f64; 3]; 2],
+    voxels: [usize; 3],
+) -> Result<Field, Error> {
+    let Field { origin, to_world, glow, hottest, .. } = described;
+    let recipe = Recipe { origin: &origin, graph, textures, density, heat, domain, to_world: &to_world, voxels };
+    let found = bake(&recipe, &AtomicBool::new(false))?;
+    let hottest = if hottest > 0.0 { hottest } else { found.hottest };
+    Ok(Field { glow, hottest, ..found })
+}
+
 fn lattice(py: Python<'_>, array: &Bound<'_, PyAny>, name: &str) -> PyResult<Lattice> {
     let shape: Vec<usize> = array.getattr("shape")?.extract()?;
     let [x, y, z] = shape[..] else {
@@ -54,9 +70,6 @@ fn lattice(py: Python<'_>, array: &Bound<'_, PyAny>, name: &str) -> PyResult<Lat
         return Err(PyValueError::new_err(format!("{name}: the shape is {shape:?}, expected numbers above 0")));
     }
     let values = floats(&array.call_method1("reshape", (-1,))?, name, 1)?.values;
-    let made = py.detach(|| {
-        let grid = Grid::from_dense(name, &values, [x, y, z], Transform::uniform(1.0, [0.0; 3])).map_err(|error| error.to_string())?;
-        Lattice::of_grid(&grid, Some([x, y, z]))
-    });
+    let made = py.detach(|| Lattice::of_values(&values, [x, y, z]));
     made.map_err(PyValueError::new_err)
 }

@@ -58,7 +58,10 @@ impl Lattice {
         let tiles = grid.tiles.iter().filter(|tile| tile.value != [0.0; 3]);
         let count: u64 = tiles.clone().map(|tile| 1u64 << (3 * (u32::from(tile.log2_edge) - 3))).sum();
         if count > MOST_BLOCKS {
-            return Err(format!("grid '{}': its even tiles come to {count} blocks of 8³ voxels, at most {MOST_BLOCKS} are held", grid.name));
+            return Err(format!(
+                "grid '{}': its even tiles come to {count} blocks of 8³ voxels, at most {MOST_BLOCKS} are held",
+                grid.name
+            ));
         }
         let (mut blocks, mut block_values) = (Vec::new(), Vec::new());
         for tile in tiles {
@@ -78,6 +81,17 @@ impl Lattice {
             blocks: blocks.into(),
             block_values: block_values.into(),
         })
+    }
+
+    /// That of an array of voxels, z fastest, whose middles are whole numbers and which reaches to its outer faces.
+    ///
+    /// # Errors
+    ///
+    /// If there are not as many values as voxels, or one is no finite number.
+    pub fn of_values(values: &[f32], shape: [usize; 3]) -> Result<Self, String> {
+        let unit = gonio_volume::Transform::uniform(1.0, [0.0; 3]);
+        let grid = Grid::from_dense("values", values, shape, unit).map_err(|error| error.to_string())?;
+        Self::of_grid(&grid, Some(shape))
     }
 
     /// Another of its shape, each value another one; 0 stays 0.
@@ -144,24 +158,18 @@ impl Field {
 
     /// The box as a mesh in lattice coordinates, whose faces look outwards; [`Field::to_world`] places it.
     pub fn mesh(&self) -> Mesh {
-        let domain = self.domain();
-        let corner = |n: usize| [0, 1, 2].map(|axis| domain[n >> axis & 1][axis]);
-        let points: Vec<[f32; 3]> = (0..8).map(corner).collect();
-        let quads = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
-        let triangles: Vec<[u32; 3]> = quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
-        Mesh { origin: self.origin.clone(), points: points.into(), triangles: triangles.into(), ..Mesh::default() }
+        let [min, max] = self.domain();
+        Mesh { origin: self.origin.clone(), ..Mesh::of_box(min, max) }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use gonio_volume::Transform as GridTransform;
 
     #[test]
     fn faces_of_the_box_look_outwards() {
-        let grid = Grid::from_dense("density", &[1.0; 24], [2, 3, 4], GridTransform::uniform(1.0, [0.0; 3])).expect("a grid");
-        let field = Field { density: Lattice::of_grid(&grid, Some([2, 3, 4])).expect("a lattice"), ..Field::default() };
+        let field = Field { density: Lattice::of_values(&[1.0; 24], [2, 3, 4]).expect("a lattice"), ..Field::default() };
         assert_eq!(field.domain(), [[-0.5; 3], [1.5, 2.5, 3.5]]);
         let mesh = field.mesh();
         let volume: f32 = mesh.triangles.iter().map(|triangle| determinant(triangle.map(|point| mesh.points[point as usize]))).sum();

@@ -99,6 +99,13 @@ pub struct Mesh {
 }
 
 impl Mesh {
+    /// A box between two corners, whose faces look outwards.
+    pub fn of_box(min: [f32; 3], max: [f32; 3]) -> Self {
+        let corner = |n: usize| [0, 1, 2].map(|axis| [min, max][n >> axis & 1][axis]);
+        let quads = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+        let triangles: Vec<[u32; 3]> = quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+        Self { points: (0..8).map(corner).collect(), triangles: triangles.into(), ..Self::default() }
+    }
     /// What is wrong with the keys; no keys at all are right.
     pub fn key_problem(&self) -> Option<String> {
         if self.motion.is_empty() {

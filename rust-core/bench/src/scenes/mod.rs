@@ -6,6 +6,7 @@ mod glass;
 mod measured;
 mod room;
 mod shapes;
+mod smoke;
 mod strands;
 
 pub(super) use build::{aimed, light, place};
@@ -13,6 +14,7 @@ pub(super) use car::{car, sky};
 pub(super) use glass::glass;
 pub(super) use measured::{glossy_room, measured_room, table};
 pub(super) use room::room;
+pub(super) use smoke::{cloud, haze, smoke};
 pub(super) use strands::strands;
 
 use gonio::{

@@ -6,6 +6,7 @@ mod generation;
 mod graph;
 mod light;
 mod light_paths;
+mod media;
 pub(super) mod paper;
 mod render;
 mod texture;
@@ -28,6 +29,7 @@ pub(super) fn cases(stage: Stage, options: &Options, cancel: &AtomicBool) -> Res
         Stage::Bsdf => Ok(bsdf::cases()),
         Stage::Light => light::cases(cancel),
         Stage::LightPaths => light_paths::cases(cancel),
+        Stage::Media => media::cases(options, cancel),
         Stage::Function => Ok(function::cases()),
         Stage::Tone => Ok(tone::cases()),
         Stage::Render => render::cases(options, cancel),

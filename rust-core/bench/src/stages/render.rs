@@ -23,8 +23,8 @@ use std::{
 
 /// Pixels a side and samples a pixel: batches are as full and neighbours as alike as in large pictures, what a render begins with is no large part of
 /// it, and a slot is over soon.
-const SIDE: u32 = 256;
-const SAMPLES: u32 = 2;
+pub(super) const SIDE: u32 = 256;
+pub(super) const SAMPLES: u32 = 2;
 
 pub(super) struct Whole {
     name: String,

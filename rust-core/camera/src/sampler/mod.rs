@@ -63,4 +63,6 @@ pub mod dimension {
     pub const MEDIUM_PLACE: u32 = 5;
     /// Point of the light that lights it.
     pub const MEDIUM_LIGHT: u32 = 6;
+    /// Seed and first flight of tracking through media that vary.
+    pub const TRACK: u32 = 7;
 }

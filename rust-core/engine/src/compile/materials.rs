@@ -5,12 +5,12 @@ pub(super) mod media;
 mod parameters;
 mod program;
 
-use super::{measured::CompiledMeasured, standard_passes, textures::CompiledTextures};
+use super::{fields, measured::CompiledMeasured, standard_passes, textures::CompiledTextures};
 use crate::{
     bsdf::{Bump, Closure as Single, Distribution, Fuzz, Metal, SubsurfaceMethod, Surface, Switches, parameter},
     error::{Diagnostic, Error, Result},
     graph::{Program, Wanted, WantedOutput},
-    scene::{self, Closure, FibreDirection, Input, Material, Model, NodeId, Origin, Scene},
+    scene::{self, Closure, FibreDirection, Input, Material, Medium, Model, NodeId, Origin, Scene},
     transport::{MaterialTable, Mix, ShaderOutput, ShaderOutputs, Shading, SurfaceMaterial},
 };
 pub(super) use displacement::{displaces, program, pruned};
@@ -32,6 +32,8 @@ pub(super) fn compile(
     let mut default = Material::diffuse(Origin::new("default material"), DEFAULT_REFLECTANCE);
     standard_passes::add_outputs(scene, &mut default);
     let mut table = MaterialTable::default();
+    let usable;
+    (table.media.fields, usable) = fields::compile(scene, diagnostics);
     for material in scene.materials.iter().chain([&default]) {
         let first = table.surfaces.len() as u32;
         if let Some(node) = nodes_of(material).find(|node| usize::from(node.0) >= material.graph.nodes.len()) {
@@ -40,11 +42,11 @@ pub(super) fn compile(
         }
         let graph = compile_graph(material, textures, names)?;
         tell_weights(material, &graph, diagnostics);
-        let interior = media::add(&material.medium, &material.origin, &mut table.media, diagnostics);
+        let interior = media::add(&material.medium, &material.origin, &usable, &mut table.media, diagnostics);
         for closure in &material.closures {
             let solid_medium = match closure.thin_walled {
                 true => None,
-                false => media::add(&closure.solid, &material.origin, &mut table.media, diagnostics),
+                false => media::add(&closure.solid, &material.origin, &usable, &mut table.media, diagnostics),
             };
             table.surfaces.push(SurfaceMaterial { interior, solid_medium, ..surface(material, closure, measured, &graph, diagnostics) });
         }
@@ -59,7 +61,9 @@ pub(super) fn compile(
             }
         });
     }
-    if let Some(row) = media::add(&scene.atmosphere, &Origin::new("atmosphere"), &mut table.media, diagnostics) {
+    if let Some(row) =
+        media::add(&Medium { field: None, ..scene.atmosphere }, &Origin::new("atmosphere"), &usable, &mut table.media, diagnostics)
+    {
         table.media.everywhere = row;
     }
     table.any_exit = table.surfaces.iter().any(|surface| surface.exit.is_some());

@@ -2,6 +2,7 @@
 //!
 //! Meshes whose arrays did not change keep their trees; moving instances rebuilds the top level alone.
 
+pub mod baked_field;
 mod bodies;
 mod bounds;
 mod cancel;
@@ -12,6 +13,7 @@ mod cut;
 mod dice;
 mod displace;
 mod expressions;
+mod fields;
 mod fill;
 mod filters;
 mod geometry;
@@ -181,8 +183,9 @@ fn report(scene: &Scene, materials: &MaterialTable, lights: &LightTable, diagnos
 
 /// What kernels read; takes it from what was compiled.
 fn tables(scene: &Scene, bvh: Tlas, looks: &mut Looks, shapes: &mut Shapes, lights: CompiledLights) -> Tables {
-    let (geometry, materials) = (mem::take(&mut shapes.geometry.table), mem::take(&mut looks.materials));
+    let (geometry, mut materials) = (mem::take(&mut shapes.geometry.table), mem::take(&mut looks.materials));
     let (first_light_instance, origin) = (shapes.geometry.first_light, shapes.origin);
+    fields::place(scene, origin, &mut materials.media.fields);
     let any_absorbing = !materials.media.is_empty()
         || scene.materials.iter().flat_map(|material| &material.closures).any(|closure| closure.input("transmission_depth").is_some());
     let rows = geometry.instances.iter().take(first_light_instance as usize).map(|row| (row.set, row.number, row.mesh));

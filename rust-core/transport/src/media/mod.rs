@@ -1,8 +1,10 @@
 //! What lies between surfaces: the media that rays are in, and what these leave of light.
 //!
 //! [`set::MediaSet`] is what a ray is in, [`set::MediaColumns`] keep it where rays wait. Transmittance is asked for in two places alone: along a segment
-//! ([`set::MediaSet::transmittance`]), and along shadow rays that pass surfaces ([`shadow`]).
+//! ([`set::MediaSet::transmittance`], and [`track`] for media that vary), and along shadow rays that pass surfaces ([`shadow`]).
 
+pub(crate) mod field;
 pub(crate) mod phase;
 pub mod set;
 pub mod shadow;
+pub(crate) mod track;

@@ -3,7 +3,7 @@
 use crate::media::set::MediaSet;
 use crate::tables::media::MediumTable;
 use gonio_bsdf::phase::{henyey_greenstein, sample_henyey_greenstein};
-use gonio_simd::{F, Lanes, Spectrum, Vec3};
+use gonio_simd::{F, Lanes, M, Spectrum, Vec3};
 
 /// One of the media.
 #[derive(Clone, Copy, Debug)]
@@ -31,19 +31,41 @@ pub(crate) struct PhaseSample<L: Lanes> {
 }
 
 impl<L: Lanes> PhaseMix<L> {
-    /// That of the media which rays are in.
+    /// That of the even media which rays are in.
     #[inline(always)]
     pub(crate) fn of(l: L, media: MediaSet<L>, table: &MediumTable) -> Self {
+        let even = media.rows().map(
+            #[inline(always)]
+            |row| row.map_or(l.f(0.0), |row| l.f(1.0).keep_if(table.field(l, row).eq(0))),
+        );
+        Self::at(l, media, table, even)
+    }
+
+    /// That of a place where the media have these densities, by their order.
+    #[inline(always)]
+    pub(crate) fn at(l: L, media: MediaSet<L>, table: &MediumTable, densities: [F<L>; 4]) -> Self {
         let mut scattering = Spectrum::zero(l);
         let mut parts = [None; 4];
-        for (part, row) in parts.iter_mut().zip(media.rows()) {
+        for ((part, row), density) in parts.iter_mut().zip(media.rows()).zip(densities) {
             if let Some(row) = row {
-                let own = table.scattering(l, row);
+                let own = table.scattering(l, row) * density;
                 scattering += own;
                 *part = Some(Part { scattering: own, anisotropy: table.anisotropy(l, row) });
             }
         }
         Self { parts, scattering }
+    }
+
+    /// Another one in some lanes.
+    #[inline(always)]
+    pub(crate) fn or(&self, other: Self, chosen: M<L>) -> Self {
+        let mut parts = [None; 4];
+        for ((part, own), new) in parts.iter_mut().zip(self.parts).zip(other.parts) {
+            if let (Some(own), Some(new)) = (own, new) {
+                *part = Some(Part { scattering: chosen.select(new.scattering, own.scattering), ..own });
+            }
+        }
+        Self { parts, scattering: chosen.select(other.scattering, self.scattering) }
     }
 
     /// Value and density at a cosine between the directions before and after.

@@ -82,6 +82,19 @@ impl<L: Lanes> MediaSet<L> {
         (self.names[0] | self.names[1]).ne(0)
     }
 
+    /// Where any medium is by a field.
+    #[inline(always)]
+    pub(crate) fn varies(self, media: &MediumTable) -> M<L> {
+        let l = self.names[0].lanes();
+        let mut varies = l.m(false);
+        if media.varies() {
+            for row in self.rows().into_iter().flatten() {
+                varies |= media.field(l, row).ne(0);
+            }
+        }
+        varies
+    }
+
     /// With one medium more.
     #[inline(always)]
     pub fn entered(self, row: u32, chosen: M<L>) -> Self {
@@ -127,7 +140,7 @@ impl<L: Lanes> MediaSet<L> {
         Self { names: [first, (second & NAME) | solid], solid: bent.select(behind.solid, self.solid) }
     }
 
-    /// Extinction a metre of all of them together.
+    /// Extinction a metre of all even ones together.
     #[inline(always)]
     pub fn extinction(self, media: &MediumTable) -> Spectrum<L> {
         self.of_names(media) + self.solid
@@ -156,14 +169,14 @@ impl<L: Lanes> MediaSet<L> {
         sum
     }
 
-    /// Optical depth of so many metres. No solid reaches infinitely far: where one seems to, its mesh is open.
+    /// Optical depth of so many metres of even media. No solid reaches infinitely far: where one seems to, its mesh is open.
     #[inline(always)]
     pub fn optical_depth(self, media: &MediumTable, distance: F<L>) -> Spectrum<L> {
         let solid = self.solid.keep_if(distance.lt(FAR));
         (self.of_names(media) + solid) * distance.min(FAR)
     }
 
-    /// What is left of light after so many metres (Beer and Lambert).
+    /// What even media leave of light after so many metres (Beer and Lambert).
     #[inline(always)]
     pub fn transmittance(self, media: &MediumTable, distance: F<L>) -> Spectrum<L> {
         (self.optical_depth(media, distance) * distance.lanes().f(-1.0)).exp()

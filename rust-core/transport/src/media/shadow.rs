@@ -1,9 +1,11 @@
-//! Optical depth along shadow rays, which pass surfaces: segment by segment, from where they enter media to where they leave them.
+//! Optical depth along shadow rays, which pass surfaces: segment by segment, from where they enter media to where they leave them; media that vary are
+//! tracked along them.
 
 use super::set::{MediaColumns, MediaSet};
+use super::track::{Track, seed};
 use crate::tables::media::MediumTable;
 use gonio_accel::TransparentHit;
-use gonio_simd::{Column, Lanes, One, Spectrum, SpectrumColumns};
+use gonio_simd::{Column, Lanes, One, PADDING, Spectrum, SpectrumColumns, Vec3};
 
 /// Where a ray passes the surface of what a medium fills.
 #[derive(Clone, Copy, Debug)]
@@ -14,22 +16,35 @@ struct Crossing {
     entering: bool,
 }
 
+/// A stretch of a ray through media that vary.
+#[derive(Clone, Copy, Debug)]
+struct Stretch {
+    ray: u32,
+    media: MediaSet<One>,
+    ends: [f32; 2],
+}
+
 /// By shadow ray; used where anything absorbs.
 #[derive(Debug)]
 pub struct OpticalDepth {
     crossings: Vec<Crossing>,
     depth: SpectrumColumns,
+    stretches: Vec<Stretch>,
+    /// Room for a register of them, and for what they leave of light.
+    lanes: (MediaColumns, SpectrumColumns),
 }
 
 impl OpticalDepth {
     /// Room for so many rays.
     pub fn new(room: usize) -> Self {
-        Self { crossings: Vec::new(), depth: SpectrumColumns::new(room) }
+        let lanes = (MediaColumns::new(PADDING), SpectrumColumns::new(PADDING));
+        Self { crossings: Vec::new(), depth: SpectrumColumns::new(room), stretches: Vec::new(), lanes }
     }
 
     /// Begins with rays that have passed nothing.
     pub fn clear(&mut self) {
         self.crossings.clear();
+        self.stretches.clear();
     }
 
     /// Adds hits on the surface of what a row of the table fills; `sides` are 1 where rays enter it, else -1.
@@ -42,14 +57,58 @@ impl OpticalDepth {
     #[inline(always)]
     pub fn add_up<L: Lanes>(&mut self, l: L, table: &MediumTable, media: &MediaColumns, ends: &[f32], count: usize) {
         for at in (0..count).step_by(L::COUNT) {
-            self.depth.store(media.load(l, at).optical_depth(table, l.load(ends, at)), at);
+            let here = media.load(l, at);
+            self.depth.store(here.optical_depth(table, l.load(ends, at)), at);
+            if table.varies() {
+                let bits = (here.varies(table) & l.first(count - at)).bits();
+                let rays = (at..at + L::COUNT).filter(|ray| bits >> (ray - at) & 1 == 1);
+                self.stretches.extend(rays.map(|ray| Stretch { ray: ray as u32, media: media.load(One, ray), ends: [0.0, ends[ray]] }));
+            }
         }
         // Whatever order surfaces come in.
         self.crossings
             .sort_unstable_by(|a, b| a.ray.cmp(&b.ray).then(a.t.total_cmp(&b.t)).then((a.row, a.entering).cmp(&(b.row, b.entering))));
+        if table.varies() {
+            let crossings = &self.crossings;
+            self.stretches.retain(|stretch| crossings.binary_search_by_key(&stretch.ray, |crossing| crossing.ray).is_err());
+        }
         for of_ray in self.crossings.chunk_by(|a, b| a.ray == b.ray) {
             let ray = of_ray[0].ray as usize;
-            self.depth.store(along(table, media.load(One, ray), of_ray, ends[ray]), ray);
+            self.depth.store(along(table, media.load(One, ray), of_ray, ends[ray], &mut self.stretches), ray);
+        }
+    }
+
+    /// Dims what rays carry by what varies along them; those that something blocks are left.
+    #[inline(always)]
+    pub fn track<L: Lanes>(
+        &mut self,
+        l: L,
+        table: &MediumTable,
+        (origins, directions, salts): ([&[f32]; 3], [&[f32]; 3], &[u32]),
+        blocked: &[u8],
+        carried: &mut SpectrumColumns,
+    ) {
+        self.stretches.retain(|stretch| blocked[stretch.ray as usize] == 0);
+        let Self { stretches, lanes: (media, left), .. } = self;
+        for some in stretches.chunks(L::COUNT) {
+            let (mut ray, mut ends) = ([0; PADDING], [[0.0; PADDING]; 2]);
+            for (lane, stretch) in some.iter().enumerate() {
+                media.store(stretch.media, lane);
+                ray[lane] = stretch.ray;
+                ends[0][lane] = stretch.ends[0];
+                ends[1][lane] = stretch.ends[1];
+            }
+            let number = l.load_integers(&ray, 0);
+            let [origin, direction] = [origins, directions].map(
+                #[inline(always)]
+                |[x, y, z]| Vec3::new(l.gather(x, number), l.gather(y, number), l.gather(z, number)),
+            );
+            let way = [l.load(&ends[0], 0), l.load(&ends[1], 0)];
+            let Some(track) = Track::of(l, table, media.load(l, 0), origin, direction) else { continue };
+            left.store(track.transmittance(way, l.first(some.len()), seed(origin, direction, way[0], l.gather_integers(salts, number))), 0);
+            for (lane, ray) in ray[..some.len()].iter().enumerate() {
+                carried.multiply(*ray as usize, left, lane);
+            }
         }
     }
 
@@ -60,13 +119,20 @@ impl OpticalDepth {
     }
 }
 
-/// Optical depth of a ray that starts in some media.
-fn along(table: &MediumTable, mut media: MediaSet<One>, crossings: &[Crossing], end: f32) -> Spectrum<One> {
+/// Optical depth in even media of a ray that starts in some; notes its stretches through those that vary.
+fn along(table: &MediumTable, mut media: MediaSet<One>, crossings: &[Crossing], end: f32, stretches: &mut Vec<Stretch>) -> Spectrum<One> {
     let (mut depth, mut start) = (Spectrum::zero(One), 0.0);
+    let mut note = |media: MediaSet<One>, ends: [f32; 2]| {
+        if table.varies() && media.varies(table).any() {
+            stretches.push(Stretch { ray: crossings[0].ray, media, ends });
+        }
+    };
     for Crossing { t, row, entering, .. } in crossings {
+        note(media, [start, *t]);
         depth += media.extinction(table) * One.f(t - start);
         media = if *entering { media.entered(*row, One.m(true)) } else { media.left(*row, One.m(true)) };
         start = *t;
     }
+    note(media, [start, end]);
     depth + media.optical_depth(table, One.f(end - start))
 }

@@ -144,6 +144,8 @@ impl LightTracer<'_> {
         // What light paths bring of caustics alone is dimmed by what scatters: camera paths find the scattered light.
         if tables.materials.media.scatters() && !self.wanted.specular_only {
             medium::pass_light(&MediumContext { tables, transport, sample }, &mut ws.paths, &mut ws.nearest, &mut ws.queues.next);
+        } else if tables.materials.media.varies() {
+            medium::dim(&MediumContext { tables, transport, sample }, &mut ws.paths, &ws.nearest);
         }
         let light_paths = &mut ws.queues.light_paths;
         (light_paths.arrivals.count, light_paths.escapes.count) = (0, 0);

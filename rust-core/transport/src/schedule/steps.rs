@@ -29,7 +29,8 @@ pub(crate) const MOST_DEPTH: u32 = 256;
 const _: () = assert!(MOST_DEPTH < 1 << (32 - flag::BOUNCE_SHIFT));
 
 /// Finds what all paths hit, adds the light of lights among it, and forks at shadow catchers.
-pub(crate) fn intersect(tracer: &Tracer<'_>, depth: u32, ws: &mut Workspace) {
+pub(crate) fn intersect(tracer: &Tracer<'_>, sample: &SampleContext<'_>, ws: &mut Workspace) {
+    let depth = sample.depth;
     let Tracer { tables, transport, .. } = tracer;
     let Workspace { paths, nearest, deposits, statistics, times, .. } = ws;
     paths.set_times(times);
@@ -40,7 +41,7 @@ pub(crate) fn intersect(tracer: &Tracer<'_>, depth: u32, ws: &mut Workspace) {
         statistics.rays += paths.count as u64;
         deposits.sums.effort.count(paths);
         intersect::find(tables, transport, depth, paths, nearest);
-        found_light::add_found(tables, transport, paths, nearest, deposits);
+        found_light::add_found((tables, transport), sample, paths, nearest, deposits);
     }
     let escaped = nearest.escaped.len();
     statistics.count_lanes(depth, LaneStage::Escaped, escaped.next_multiple_of(transport.execution.lanes()), escaped);
@@ -53,13 +54,19 @@ pub(crate) fn find_materials(tracer: &Tracer<'_>, ws: &mut Workspace) {
     dispatch!(transport.execution, l => list_materials(l, tables, &ws.nearest.hits, &mut ws.materials.material_of));
 }
 
-/// Takes paths through the media before what they hit.
-pub(crate) fn pass_media(tracer: &Tracer<'_>, sample: &SampleContext<'_>, ws: &mut Workspace) {
+/// Takes paths through the media before what they hit, where these scatter them; else what varies dims them.
+pub(crate) fn pass_media(tracer: &Tracer<'_>, sample: &SampleContext<'_>, scatters: bool, ws: &mut Workspace) {
     let Tracer { tables, transport, start } = tracer;
     let media = &tables.materials.media;
     // Baked places have no way before them.
     let known = sample.depth == 0 && matches!(start, Start::Places(_));
-    if known || !(media.scatters() || media.shines()) {
+    if known || !(media.scatters() || media.shines() || media.varies()) {
+        return;
+    }
+    if !scatters {
+        if media.varies() {
+            medium::dim(&MediumContext { tables, transport, sample }, &mut ws.paths, &ws.nearest);
+        }
         return;
     }
     let context = MediumContext { tables, transport, sample };
@@ -74,7 +81,7 @@ pub(crate) fn shade<I: Integrator>(tracer: &Tracer<'_>, integrator: &I, context:
         while start < end {
             let count = (end - start).min(most);
             let time = Instant::now();
-            make_room(tracer, integrator, context.depth == 0, count, ws);
+            make_room(tracer, integrator, context, count, ws);
             ws.statistics.spent(Stage::Shadow, time);
             let hits = start..start + count;
             dispatch!(tracer.transport.execution, l => shade_hits(l, tracer, integrator, context, surface, hits.clone(), ws));
@@ -129,7 +136,7 @@ pub(crate) fn measure<I: Integrator>(tracer: &Tracer<'_>, integrator: &I, sample
     let (count, together) = (ws.queues.measure.count, hits_together(integrator.shadow_rays_per_hit()));
     for first in (0..count).step_by(together) {
         let range = first..(first + together).min(count);
-        make_room(tracer, integrator, sample.depth == 0, range.len(), ws);
+        make_room(tracer, integrator, sample, range.len(), ws);
         let (queues, deposits) = (&mut ws.queues, &mut ws.deposits);
         dispatch!(transport.execution, l => {
             let chunk = MeasureContext { l, tables, transport, sample, points: &queues.measure, range: range.clone() };
@@ -146,18 +153,21 @@ pub(crate) fn measure_found<I: Integrator>(tracer: &Tracer<'_>, integrator: &I, 
 }
 
 /// Traces the queue of shadow rays if those of some more hits would not fit into it.
-fn make_room<I: Integrator>(tracer: &Tracer<'_>, integrator: &I, coherent: bool, hits: usize, ws: &mut Workspace) {
+fn make_room<I: Integrator>(tracer: &Tracer<'_>, integrator: &I, sample: &SampleContext<'_>, hits: usize, ws: &mut Workspace) {
     if !ws.queues.shadows.has_room(hits, integrator.shadow_rays_per_hit()) {
-        trace_shadows(tracer, coherent, ws);
+        trace_shadows(tracer, sample, ws);
     }
 }
 
 /// Traces the queued shadow rays and adds the light of those that arrive.
-pub(crate) fn trace_shadows(tracer: &Tracer<'_>, coherent: bool, ws: &mut Workspace) {
+pub(crate) fn trace_shadows(tracer: &Tracer<'_>, sample: &SampleContext<'_>, ws: &mut Workspace) {
     let Workspace { queues, shadow_trace, chunk, deposits, statistics, times, .. } = ws;
     statistics.shadow_rays += queues.shadows.count as u64;
     queues.shadows.set_times(times);
-    shadow::trace_shadows(tracer.tables, &tracer.transport, coherent, &mut queues.shadows, shadow_trace, chunk, deposits);
+    if tracer.tables.materials.media.varies() {
+        dispatch!(tracer.transport.execution, l => queues.shadows.set_salts(l, sample));
+    }
+    shadow::trace_shadows(tracer.tables, &tracer.transport, sample.depth == 0, &mut queues.shadows, shadow_trace, chunk, deposits);
 }
 
 /// Sets the visibility bits of paths that are about to be traced.

@@ -151,7 +151,7 @@ impl Tracer<'_> {
     fn begin_measuring<I: Integrator>(&self, integrator: &I, batch: &Batch<'_>, ws: &mut Workspace) -> u32 {
         let context = SampleContext { sampler: batch.sampler, runs: batch.runs, depth: 0 };
         steps::measure(self, integrator, &context, ws);
-        steps::trace_shadows(self, true, ws);
+        steps::trace_shadows(self, &context, ws);
         std::mem::swap(&mut ws.paths, &mut ws.queues.next);
         steps::set_masks(self.tables, &mut ws.paths);
         1

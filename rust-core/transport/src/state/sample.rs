@@ -1,6 +1,7 @@
 //! The sample context: sampler, slot runs and depth. With a slot they determine every random number.
 
 use gonio_camera::sampler::{Runs, Sampler, dimension};
+use gonio_nodes::hash::hash2;
 use gonio_simd::{Lanes, U};
 
 /// Which samples are under way, and how deep their paths are.
@@ -22,5 +23,11 @@ impl SampleContext<'_> {
     #[inline(always)]
     pub(crate) fn index<L: Lanes>(&self, l: L, slot: U<L>) -> U<L> {
         self.runs.index(l, &self.sampler, slot)
+    }
+
+    /// A number that tells the samples and bounces of all slots apart, for random numbers beyond the sampler's.
+    #[inline(always)]
+    pub(crate) fn salt<L: Lanes>(&self, l: L, slot: U<L>) -> U<L> {
+        hash2(l, self.index(l, slot), l.u(self.depth))
     }
 }

@@ -1,8 +1,9 @@
-//! The media of a scene, a row each: what fills closed meshes, or all of space, evenly.
+//! The media of a scene, a row each: what fills closed meshes, or all of space, evenly or by a field.
 
+use crate::tables::fields::FieldTable;
 use gonio_simd::{Column, F, Lanes, PADDING, Rgb, Spectrum, U};
 
-/// A medium (pbrt's `HomogeneousMedium`); coefficients a metre, R, G, B.
+/// A medium (pbrt's `HomogeneousMedium` and `GridMedium`); coefficients a metre, R, G, B.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Medium {
     /// Absorption.
@@ -13,21 +14,29 @@ pub struct Medium {
     pub emission: [f32; 3],
     /// Mean cosine g of its phase function (Henyey and Greenstein), above −1 and below 1.
     pub anisotropy: f32,
+    /// Row of the field that the coefficients are multiplied by, 0 for none.
+    pub field: u32,
 }
 
 /// All of a scene. Row 0 is no medium.
 #[derive(Clone, Debug, Default)]
 pub struct MediumTable {
     rows: Vec<Medium>,
+    /// Of even ones, and of those by a field.
     extinction: [Column; 3],
+    field_extinction: [Column; 3],
     scattering: [Column; 3],
     emission: [Column; 3],
     anisotropy: Column,
+    field: Column<u32>,
+    /// The fields.
+    pub fields: FieldTable,
     /// The row that fills all of space, 0 for none.
     pub everywhere: u32,
     /// Whether any scatters, and whether any shines.
     scatters: bool,
     shines: bool,
+    varies: bool,
 }
 
 impl MediumTable {
@@ -38,12 +47,17 @@ impl MediumTable {
         }
         self.rows.push(medium);
         let rows = &self.rows;
-        self.extinction = three(rows, |row, part| row.absorption[part] + row.scattering[part]);
+        let extinction = |row: &Medium, part: usize| row.absorption[part] + row.scattering[part];
+        self.extinction = three(rows, |row, part| if row.field == 0 { extinction(row, part) } else { 0.0 });
+        self.field_extinction = three(rows, |row, part| if row.field == 0 { 0.0 } else { extinction(row, part) });
         self.scattering = three(rows, |row, part| row.scattering[part]);
         self.emission = three(rows, |row, part| row.emission[part]);
         self.anisotropy = column(rows, |row| row.anisotropy);
+        self.field = Column::new(rows.len() + PADDING);
+        self.field[1..].iter_mut().zip(rows).for_each(|(place, row)| *place = row.field);
         self.scatters |= medium.scattering != [0.0; 3];
         self.shines |= medium.emission != [0.0; 3];
+        self.varies |= medium.field != 0;
         self.rows.len() as u32
     }
     /// Whether there is no medium at all.
@@ -58,7 +72,21 @@ impl MediumTable {
     pub fn shines(&self) -> bool {
         self.shines
     }
-    /// Extinction a metre of some rows.
+    /// Whether any is by a field.
+    pub fn varies(&self) -> bool {
+        self.varies
+    }
+    /// The fields of some rows, 0 for even ones.
+    #[inline(always)]
+    pub(crate) fn field<L: Lanes>(&self, l: L, row: U<L>) -> U<L> {
+        l.gather_integers(&self.field, row)
+    }
+    /// Extinction a metre of some rows where density is 1; of even ones none.
+    #[inline(always)]
+    pub(crate) fn field_extinction<L: Lanes>(&self, l: L, row: U<L>) -> Spectrum<L> {
+        Spectrum::coefficient(gathered(l, &self.field_extinction, row))
+    }
+    /// Extinction a metre of some rows; none of those by a field.
     #[inline(always)]
     pub(crate) fn extinction<L: Lanes>(&self, l: L, row: U<L>) -> Spectrum<L> {
         Spectrum::coefficient(gathered(l, &self.extinction, row))

@@ -3,6 +3,7 @@
 pub(crate) mod bodies;
 pub(crate) mod bright_places;
 pub(crate) mod expressions;
+pub(crate) mod fields;
 pub(crate) mod guiding;
 pub(crate) mod light_groups;
 pub(crate) mod links;

@@ -21,15 +21,26 @@ pub(in crate::compile) fn report(atmosphere: &Medium, lights: &LightTable, diagn
 const MOST_ANISOTROPY: f32 = 0.999;
 
 /// Adds a medium and gives its row; `None` where nothing happens to light in it. What is out of range is held there, and told.
-pub(super) fn add(medium: &Medium, origin: &Origin, table: &mut MediumTable, diagnostics: &mut Vec<Diagnostic>) -> Option<u32> {
+pub(super) fn add(
+    medium: &Medium,
+    origin: &Origin,
+    fields: &[bool],
+    table: &mut MediumTable,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<u32> {
+    let field = match medium.field {
+        // Fields that cannot be used have been told.
+        Some(id) => fields.get(id.index()).filter(|usable| **usable).map(|_| id.0 + 1)?,
+        None => 0,
+    };
     let held = held(medium);
     if held != *medium {
         let problem =
             "coefficients of a medium are 0 or more and finite, its anisotropy is from -0.999 to 0.999; what is beyond is held there";
         diagnostics.push(Diagnostic::warning(origin, problem));
     }
-    let Medium { absorption, scattering, emission, anisotropy } = held;
-    (!held.is_clear()).then(|| table.add(transport::Medium { absorption, scattering, emission, anisotropy }))
+    let Medium { absorption, scattering, emission, anisotropy, .. } = held;
+    (!held.is_clear()).then(|| table.add(transport::Medium { absorption, scattering, emission, anisotropy, field }))
 }
 
 fn held(medium: &Medium) -> Medium {
@@ -42,5 +53,6 @@ fn held(medium: &Medium) -> Medium {
         // Below zero it takes light away, as lamps of negative strength do.
         emission: medium.emission.map(finite),
         anisotropy,
+        field: medium.field,
     }
 }

@@ -53,11 +53,9 @@ fn follow_bounce(
 ) {
     let Tracer { tables, transport, .. } = tracer;
     let time = Instant::now();
-    steps::intersect(tracer, sample.depth, ws);
+    steps::intersect(tracer, sample, ws);
     ws.queues.next.clear();
-    if integrator.lit {
-        steps::pass_media(tracer, sample, ws);
-    }
+    steps::pass_media(tracer, sample, integrator.lit, ws);
     steps::find_materials(tracer, ws);
     choose_closures(tables, transport, sample, &mut ws.paths, &ws.nearest.hits, &mut ws.materials, &mut ws.chunk, Some(&mut ws.deposits));
     sort_by_material(tables, transport, &mut ws.materials);
@@ -67,6 +65,6 @@ fn follow_bounce(
     let context = WalkContext { tables, transport, sample, paths: &ws.paths, times: &ws.times, lit: true };
     ws.statistics.rays += walk(&context, &mut ws.walk_hits, &mut ws.chunk, &mut ws.queues, &mut ws.deposits, cancelled);
     steps::measure_found(tracer, integrator, sample, ws);
-    steps::trace_shadows(tracer, sample.depth == 0, ws);
+    steps::trace_shadows(tracer, sample, ws);
     ws.statistics.spent(Stage::Shadow, time);
 }

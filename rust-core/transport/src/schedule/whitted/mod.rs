@@ -55,7 +55,8 @@ pub(crate) fn follow(
 fn follow_batch(tracer: &Tracer<'_>, integrator: &WhittedIntegrator<'_>, sample: &SampleContext<'_>, ws: &mut Workspace) {
     let Tracer { tables, transport, .. } = tracer;
     let start = Instant::now();
-    steps::intersect(tracer, sample.depth, ws);
+    steps::intersect(tracer, sample, ws);
+    steps::pass_media(tracer, sample, false, ws);
     steps::find_materials(tracer, ws);
     ws.statistics.spent(Stage::Intersect, start);
     closures::keep(tables, &ws.materials, &ws.paths, &mut ws.queues.branches.undivided);
@@ -66,7 +67,7 @@ fn follow_batch(tracer: &Tracer<'_>, integrator: &WhittedIntegrator<'_>, sample:
         steps::shade(tracer, integrator, sample, ws);
         let start = Instant::now();
         steps::measure_found(tracer, integrator, sample, ws);
-        steps::trace_shadows(tracer, sample.depth == 0, ws);
+        steps::trace_shadows(tracer, sample, ws);
         ws.statistics.spent(Stage::Shadow, start);
         ws.queues.branches.queue(sample.depth + 1);
     }

@@ -7,22 +7,32 @@ use crate::accumulate::deposit::{Contribution, Deposits, Source, code_of_found, 
 use crate::accumulate::expression_sums::with_state;
 use crate::accumulate::guides::is_specular_path;
 use crate::kernels::{self, LightHit};
+use crate::media::set::FAR;
+use crate::media::track::{Track, seed};
 use crate::state::columns::gather3;
 use crate::state::light_paths::{Escapes, LightStarts};
 use crate::state::nearest::{MetLights, NearestHits};
 use crate::state::paths::{CarriedLanes, Paths, TrackLanes};
+use crate::state::sample::SampleContext;
 use crate::tables::Tables;
+use crate::tables::media::MediumTable;
 use crate::tables::transport::Transport;
 use crate::words::{code, flag};
 use gonio_accel::NONE;
 use gonio_light::{EscapedRay, hit_weight};
-use gonio_simd::{Lanes, Spectrum, U, dispatch};
+use gonio_simd::{F, Lanes, M, Spectrum, U, dispatch};
 
 /// Adds the light that shapes and the environment send along the rays of paths.
-pub(crate) fn add_found(tables: &Tables, transport: &Transport, paths: &Paths, nearest: &mut NearestHits, deposits: &mut Deposits) {
+pub(crate) fn add_found(
+    (tables, transport): (&Tables, &Transport),
+    sample: &SampleContext<'_>,
+    paths: &Paths,
+    nearest: &mut NearestHits,
+    deposits: &mut Deposits,
+) {
     dispatch!(transport.execution, l => {
-        add_shapes(l, tables, transport, paths, &nearest.lights, deposits);
-        add_environment(l, tables, transport, paths, &mut nearest.escaped, deposits);
+        add_shapes(l, (tables, transport), sample, paths, &nearest.lights, deposits);
+        add_environment(l, (tables, transport), sample, paths, &mut nearest.escaped, deposits);
     });
 }
 
@@ -35,7 +45,7 @@ pub(crate) fn escape<L: Lanes>(l: L, tables: &Tables, paths: &Paths, escaped: &m
         let alive = l.first(count - at);
         let path = l.load_integers(escaped, at);
         let TrackLanes { slot, flags, .. } = paths.track(l, path);
-        let flux = to_film(starts.carried(l, slot, leaving_scene(l, tables, paths, path)));
+        let flux = to_film(starts.carried(l, slot, leaving_scene(l, tables, paths, path, None)));
         let ray = [gather3(l, &paths.rays.origin, path), paths.cone(l, path).direction];
         escapes.append(ray, flux, flags >> flag::BOUNCE_SHIFT, alive);
     }
@@ -44,15 +54,44 @@ pub(crate) fn escape<L: Lanes>(l: L, tables: &Tables, paths: &Paths, escaped: &m
 
 /// Throughput of paths behind all that they can still come through: where media reach infinitely far, none is left.
 #[inline(always)]
-fn leaving_scene<L: Lanes>(l: L, tables: &Tables, paths: &Paths, path: U<L>) -> Spectrum<L> {
+fn leaving_scene<L: Lanes>(l: L, tables: &Tables, paths: &Paths, path: U<L>, sample: Option<&SampleContext<'_>>) -> Spectrum<L> {
     let throughput = paths.carried(l, path).throughput;
     let media = &tables.materials.media;
-    if media.is_empty() { throughput } else { throughput * paths.media.gather(l, path).transmittance(media, l.f(f32::MAX)) }
+    if media.is_empty() {
+        return throughput;
+    }
+    throughput * transmittance(l, (media, sample), paths, path, [paths.rays.passed.distance(l, path), l.f(f32::MAX)], l.m(true))
+}
+
+/// What media leave of light on the ways of paths between distances from their origins; an estimate where they vary, another one for each sample.
+#[inline(always)]
+pub(super) fn transmittance<L: Lanes>(
+    l: L,
+    (table, sample): (&MediumTable, Option<&SampleContext<'_>>),
+    paths: &Paths,
+    path: U<L>,
+    [from, to]: [F<L>; 2],
+    chosen: M<L>,
+) -> Spectrum<L> {
+    let media = paths.media.gather(l, path);
+    let left = media.transmittance(table, to - from);
+    let (origin, direction) = (gather3(l, &paths.rays.origin, path), paths.cone(l, path).direction);
+    let Some(track) = Track::of(l, table, media, origin, direction) else { return left };
+    // Light paths start anywhere: no two are alike.
+    let salt = sample.map_or_else(|| l.u(0), |sample| sample.salt(l, paths.track(l, path).slot));
+    left * track.transmittance([from, to.min(FAR)], chosen, seed(origin, direction, from, salt))
 }
 
 /// Adds the emission of light shapes that paths hit, weighted by MIS against next event estimation.
 #[inline(always)]
-fn add_shapes<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths: &Paths, lights: &MetLights, deposits: &mut Deposits) {
+fn add_shapes<L: Lanes>(
+    l: L,
+    (tables, transport): (&Tables, &Transport),
+    sample: &SampleContext<'_>,
+    paths: &Paths,
+    lights: &MetLights,
+    deposits: &mut Deposits,
+) {
     for at in (0..lights.path.len()).step_by(L::COUNT) {
         let path = l.load_integers(&lights.path, at);
         let alive = path.ne(NONE);
@@ -71,7 +110,8 @@ fn add_shapes<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths: &Pa
             weight = (flags & flag::CAMERA).ne(0).select(weight, weight * factor);
         }
         let radiance = if tables.any_absorbing {
-            radiance * paths.media.gather(l, path).transmittance(&tables.materials.media, t - paths.rays.passed.distance(l, path))
+            let ends = [paths.rays.passed.distance(l, path), t];
+            radiance * transmittance(l, (&tables.materials.media, Some(sample)), paths, path, ends, alive)
         } else {
             radiance
         };
@@ -92,7 +132,14 @@ fn infinite_left_to_light_paths<'a>(tables: &'a Tables, transport: &'a Transport
 
 /// Adds the light of infinite lights to paths that escaped, weighted by MIS against next event estimation.
 #[inline(always)]
-fn add_environment<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths: &Paths, escaped: &mut Vec<u32>, deposits: &mut Deposits) {
+fn add_environment<L: Lanes>(
+    l: L,
+    (tables, transport): (&Tables, &Transport),
+    sample: &SampleContext<'_>,
+    paths: &Paths,
+    escaped: &mut Vec<u32>,
+    deposits: &mut Deposits,
+) {
     let count = escaped.len();
     escaped.resize(gonio_simd::padded(count), 0);
     for at in (0..count).step_by(L::COUNT) {
@@ -100,7 +147,7 @@ fn add_environment<L: Lanes>(l: L, tables: &Tables, transport: &Transport, paths
         let path = l.load_integers(escaped, at);
         let (CarriedLanes { pdf, .. }, TrackLanes { slot, flags, .. }) = (paths.carried(l, path), paths.track(l, path));
         let camera = (flags & flag::CAMERA).ne(0);
-        let throughput = leaving_scene(l, tables, paths, path);
+        let throughput = leaving_scene(l, tables, paths, path, Some(sample));
         let passed = throughput.mean() * (1.0 / transport.squared_index);
         // The pdf of camera rays is their share of the sample. What dims them covers what is behind by as much.
         let covered = if transport.environment_covers { pdf } else { pdf - passed };

@@ -1,5 +1,6 @@
 //! The ways of light paths in one bounce, each from a scattering to the next surface, or out of the scene.
 
+use super::found_light::transmittance;
 use crate::accumulate::deposit::film_numbers;
 use crate::state::light_paths::LightStarts;
 use crate::state::paths::Paths;
@@ -61,8 +62,8 @@ impl<'a> Segments<'a> {
     /// Flux that one carries at a distance from its origin, R, G, B in the units of the emission.
     pub fn flux(&self, segment: usize, distance: f32) -> [f32; 3] {
         let path = One.u(segment as u32);
-        let way = distance - self.paths.rays.passed.distance(One, path).0;
-        let left = self.paths.media.gather(One, path).transmittance(self.media, One.f(way));
+        let ends = [self.paths.rays.passed.distance(One, path), One.f(distance)];
+        let left = transmittance(One, (self.media, None), self.paths, path, ends, One.m(true));
         let flux = self.starts.carried(One, self.paths.track(One, path).slot, self.paths.carried(One, path).throughput);
         film_numbers(flux * left)
     }

@@ -19,7 +19,7 @@ use crate::tables::material::{parameter_values, threshold};
 use crate::tables::transport::{Limits, Transport};
 use gonio_accel::TransparentHit;
 use gonio_bsdf::parameter::OPACITY;
-use gonio_simd::{Frame, Lanes, Spectrum, SpectrumColumns, dispatch};
+use gonio_simd::{Column, Frame, Lanes, Spectrum, SpectrumColumns, dispatch};
 
 /// Traces the queued shadow rays and adds the contributions of those that arrive.
 pub(crate) fn trace_shadows(
@@ -168,6 +168,14 @@ fn attenuate<L: Lanes>(l: L, tables: &Tables, shadows: &mut ShadowRays, trace: &
         let left = trace.depth.transmittance(l, at);
         shadows.contribution.store(shadows.contribution.load(l, at) * left, at);
     }
+    if tables.materials.media.varies() {
+        let rays = (slices(&shadows.rays.origin), slices(&shadows.rays.direction), &*shadows.salt);
+        trace.depth.track(l, &tables.materials.media, rays, &trace.blocked, &mut shadows.contribution);
+    }
+}
+
+fn slices([x, y, z]: &[Column; 3]) -> [&[f32]; 3] {
+    [x, y, z]
 }
 
 /// Adds what a closure lets pass straight, times its weights if it is one of several.

@@ -1,7 +1,12 @@
-//! Free flights: where paths scatter before what they would hit, drawn by the transmittance of one component of light, weighed over all of them.
+//! Free flights: where paths scatter before what they would hit.
+//!
+//! Flights through even media are drawn by the transmittance of one component of light, weighed over all of them. Media that vary are tracked up to where
+//! that one ends: what comes first counts.
 
 use super::context::MediumContext;
 use super::way::Way;
+use crate::media::phase::PhaseMix;
+use crate::media::track::{Track, seed};
 use crate::state::paths::Paths;
 use gonio_accel::{Hits, NONE};
 use gonio_camera::sampler::dimension;
@@ -15,11 +20,11 @@ pub(super) struct Flight<L: Lanes> {
     pub(super) distance: F<L>,
     /// Factor on the throughput of those that do.
     pub(super) factor: Spectrum<L>,
-    /// The probability that a flight comes to the end of its way.
-    passes: F<L>,
+    /// Factor on that of those which come to the end of their way, beside what even media leave there.
+    through: Spectrum<L>,
 }
 
-/// Draws a flight along each way.
+/// Draws a flight along each way through even media.
 #[inline(always)]
 pub(super) fn draw<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>) -> Flight<L> {
     let l = way.pdf.lanes();
@@ -27,11 +32,58 @@ pub(super) fn draw<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>) -> Fligh
     let channels = way.channels();
     let extinction = channels.choose(u[0], way.extinction);
     let distance = -(1.0 - u[1]).max(1e-9).ln() / extinction.max(f32::MIN_POSITIVE);
-    let scatters = distance.lt(way.length) & extinction.gt(0.0);
+    let scatters = way.scatters_evenly & distance.lt(way.length) & extinction.gt(0.0);
     let left = way.transmittance(distance);
     let density = channels.dot(way.extinction * left);
     let factor = left * way.phase.scattering * density.max(f32::MIN_POSITIVE).recip();
-    Flight { scatters, distance, factor, passes: channels.dot(way.transmittance(way.length)) }
+    let through = Spectrum::constant(passes(way, way.length).max(f32::MIN_POSITIVE).recip());
+    Flight { scatters, distance, factor, through }
+}
+
+/// The probability that flights through even media come so far.
+#[inline(always)]
+fn passes<L: Lanes>(way: &Way<L>, distance: F<L>) -> F<L> {
+    let one = distance.lanes().f(1.0);
+    way.scatters_evenly.select(way.channels().dot(way.transmittance(distance)), one)
+}
+
+/// Follows ways through media that vary as far as their flights; gives the flights that they become, and lets ways scatter as their places do. `shines`
+/// takes what is sent along them.
+#[inline(always)]
+pub(super) fn track<L: Lanes>(
+    context: &MediumContext<'_>,
+    (way, track): (&mut Way<L>, &Track<'_, L>),
+    even: Flight<L>,
+    shines: impl FnMut(F<L>, F<L>, Spectrum<L>),
+) -> Flight<L> {
+    let l = way.pdf.lanes();
+    let chosen = way.scatters & track.varies;
+    let end = even.scatters.select(even.distance, way.length);
+    let [own, first] = context.pair(l, way.core.slot, dimension::TRACK);
+    let seed = seed(way.origin, way.direction, way.from, own.to_bits());
+    let found = track.go([way.from, way.from + end], chosen, Some((way.core.throughput, first)), seed, shines);
+    let scattered = chosen & found.scatters;
+    let distance = (found.distance - way.from).max(0.0);
+    let left = way.transmittance(distance) * passes(way, distance).max(f32::MIN_POSITIVE).recip();
+    let factor = scattered.select(found.weight * left, chosen.select(even.factor * found.weight, even.factor));
+    let phase = PhaseMix::at(l, way.core.media, &context.tables.materials.media, track.densities(found.distance));
+    way.phase = way.phase.or(phase, scattered);
+    let [_, extinction] = track.coefficients(found.distance);
+    way.extinction = scattered.select(extinction, way.extinction);
+    Flight {
+        scatters: even.scatters | scattered,
+        distance: scattered.select(distance, even.distance),
+        factor,
+        through: chosen.select(even.through * found.weight, even.through),
+    }
+}
+
+/// Multiplies what a register of paths carries, from the one at `at` on.
+#[inline(always)]
+pub(super) fn multiply<L: Lanes>(paths: &mut Paths, at: usize, factor: Spectrum<L>) {
+    let mut places = [0; PADDING];
+    places.iter_mut().zip(at as u32..).for_each(|(place, path)| *place = path);
+    paths.carried.multiply(factor, &places[..L::COUNT.min(paths.count - at)]);
 }
 
 /// Takes what scattered from the hits, and makes up for it where paths came through; what dims them there is told at their hits.
@@ -41,10 +93,7 @@ pub(super) fn settle<L: Lanes>(way: &Way<L>, flight: &Flight<L>, scattered: M<L>
     let count = L::COUNT.min(paths.count - way.at);
     let passed = way.scatters.and_not(scattered);
     if passed.any() {
-        let factor = passed.select(flight.passes.max(f32::MIN_POSITIVE).recip(), l.f(1.0));
-        let mut places = [0; PADDING];
-        places.iter_mut().zip(way.at as u32..).for_each(|(place, path)| *place = path);
-        paths.carried.multiply(Spectrum::constant(factor), &places[..count]);
+        multiply(paths, way.at, passed.select(flight.through, Spectrum::one(l)));
     }
     let bits = scattered.bits();
     for lane in (0..count).filter(|lane| bits >> lane & 1 == 1) {

@@ -1,10 +1,11 @@
-//! Next event estimation in media: a light is sampled for one place of each way.
+//! Next event estimation in media: a light is sampled for one place of each way; where media vary, for the place where it scatters.
 //!
-//! The place is drawn by distance or towards a point of the light (equiangular sampling), by the balance heuristic over both, where the light reaches
+//! In even media the place is drawn by distance or towards a point of the light (equiangular sampling), by the balance heuristic over both, where the light reaches
 //! the way. Kulla and Fajardo,
 //! Importance Sampling Techniques for Path Tracing in Participating Media (2012).
 
 use super::context::MediumContext;
+use super::flight::Flight;
 use super::scatter::{flags, light_context};
 use super::way::Way;
 use crate::accumulate::deposit::{Contribution, Deposits, code_of_found};
@@ -16,7 +17,7 @@ use crate::state::queue::shadow_rays::{Along, ShadowRays};
 use crate::state::vertex::Interaction;
 use crate::words::event;
 use gonio_camera::sampler::dimension;
-use gonio_light::{LightAlong, LightSampleContext, LightWay, power_heuristic};
+use gonio_light::{LightAlong, LightSample, LightSampleContext, LightWay, power_heuristic};
 use gonio_simd::{F, Frame, Lanes, M, Spectrum, U, Vec3};
 
 /// Optical depths below this are drawn from evenly.
@@ -105,28 +106,81 @@ fn place<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>) -> Place<L> {
     Place { distance: from + distance, pdf: pdf.keep_if(reached), light }
 }
 
-/// Samples a light for each chosen way and queues the shadow ray to it.
+/// Samples a light for each chosen way through even media and queues the shadow ray to it.
 #[inline(always)]
-pub(super) fn sample<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>, chosen: M<L>, shadows: &mut ShadowRays, deposits: &mut Deposits) {
-    let MediumContext { tables, transport, .. } = *context;
+pub(super) fn sample_along<L: Lanes>(
+    context: &MediumContext<'_>,
+    way: &Way<L>,
+    chosen: M<L>,
+    shadows: &mut ShadowRays,
+    deposits: &mut Deposits,
+) {
+    let tables = context.tables;
     if !chosen.any() || tables.lights.is_empty() {
         return;
     }
     let l = way.pdf.lanes();
-    let Place { distance, pdf: place_pdf, light } = place(context, way);
+    let Place { distance, pdf, light } = place(context, way);
     let from = light_context(way.place(distance));
     let sample = kernels::sample_li_of(l, tables, light, &from, &context.pair(l, way.core.slot, dimension::MEDIUM_LIGHT));
-    let usable = chosen & sample.pdf.gt(0.0) & place_pdf.gt(0.0) & sample.radiance.is_lit();
-    let usable = usable & catcher::may_sample(l, tables, way.core.slot, sample.light);
-    if !usable.any() {
+    let usable = usable(context, way, &sample, chosen & pdf.gt(0.0));
+    if usable.any() {
+        let of_point = sample.pdf / light.1.max(f32::MIN_POSITIVE) * pmf(context, &from, light.0, usable);
+        let left = way.transmittance(distance) * way.phase.scattering * pdf.max(f32::MIN_POSITIVE).recip();
+        send_on(context, way, (&from, &sample, of_point), left, usable, shadows, deposits);
+    }
+}
+
+/// Samples a light where each chosen way scatters and queues the shadow ray to it.
+#[inline(always)]
+pub(super) fn sample_at<L: Lanes>(
+    context: &MediumContext<'_>,
+    way: &Way<L>,
+    flight: &Flight<L>,
+    chosen: M<L>,
+    shadows: &mut ShadowRays,
+    deposits: &mut Deposits,
+) {
+    let MediumContext { tables, transport, .. } = *context;
+    if !chosen.any() || tables.lights.is_empty() {
         return;
     }
+    let (l, slot) = (way.pdf.lanes(), way.core.slot);
+    let from = light_context(way.place(flight.distance));
+    let [u_light, _] = context.pair(l, slot, dimension::MEDIUM_LIGHT_CHOICE);
+    let [u, v] = context.pair(l, slot, dimension::MEDIUM_LIGHT);
+    let sample = kernels::sample_li(l, tables, transport.light_cache.as_deref(), &from, &[u_light, u, v]);
+    let usable = usable(context, way, &sample, chosen);
+    if usable.any() {
+        send_on(context, way, (&from, &sample, sample.pdf), flight.factor, usable, shadows, deposits);
+    }
+}
+
+/// Those of samples that may bring light.
+#[inline(always)]
+fn usable<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>, sample: &LightSample<L>, chosen: M<L>) -> M<L> {
+    let found = chosen & sample.pdf.gt(0.0) & sample.radiance.is_lit();
+    found & catcher::may_sample(sample.pdf.lanes(), context.tables, way.core.slot, sample.light)
+}
+
+/// Queues shadow rays to samples of lights from places of ways; `left` is a factor on what the ways carry, the scattering with it, and the density of a
+/// sample is that by which rays which find the light weigh theirs.
+#[inline(always)]
+fn send_on<L: Lanes>(
+    context: &MediumContext<'_>,
+    way: &Way<L>,
+    (from, sample, of_point): (&LightSampleContext<L>, &LightSample<L>, F<L>),
+    left: Spectrum<L>,
+    usable: M<L>,
+    shadows: &mut ShadowRays,
+    deposits: &mut Deposits,
+) {
+    let MediumContext { tables, transport, .. } = *context;
+    let l = way.pdf.lanes();
     let (phase, pdf) = way.phase.eval(way.direction.dot(sample.wi));
-    let found = power_heuristic(sample.pdf / light.1.max(f32::MIN_POSITIVE) * pmf(context, &from, light.0, usable), pdf);
-    let weight = sample.delta.select(l.f(1.0), found);
+    let weight = sample.delta.select(l.f(1.0), power_heuristic(of_point, pdf));
     let weight = weight * tables.lights.scattered_factor(l, sample.light, l.u(event::VOLUME));
-    let left = way.transmittance(distance) * way.phase.scattering;
-    let whole = sample.radiance * way.core.throughput * left * phase * (weight / (sample.pdf * place_pdf));
+    let whole = sample.radiance * way.core.throughput * left * phase * (weight / sample.pdf);
     let (value, ceiling) = clamped(tables, transport, sample.light, whole, way.bounces() + 1);
     let lit = usable & value.is_lit() & value.abs().max_component().is_finite();
     let flags = flags(context, way);
@@ -134,8 +188,8 @@ pub(super) fn sample<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>, chosen
     let shares = if deposits.wants_shares(transport) { Some([Spectrum::one(l), Spectrum::zero(l)]) } else { None };
     let light = Contribution::sampled(sample.light, way.core.slot, value, code, shares);
     let along = Along::new(tables, transport, way.core.media, way.core.counts, ceiling);
-    let at = floating(&from);
-    send(transport, (&at, at.spawn_ray_to(&sample)), (&sample, along), &light, lit, shadows, deposits);
+    let at = floating(from);
+    send(transport, (&at, at.spawn_ray_to(sample)), (sample, along), &light, lit, shadows, deposits);
 }
 
 /// The probability with which a light is selected at a place, as the weights of rays that find it have it.

@@ -1,20 +1,24 @@
 //! Media that scatter: what happens to rays between surfaces (pbrt's `SampleMediumInteraction`, Cycles' `shade_volume`).
 //!
 //! The light that media send along rays is added (`shine`), a light is sampled for a place of each way (`light`), and it is drawn where paths scatter
-//! before what they would meet (`flight`, `scatter`). All of it in one pass over the rays that are in something.
+//! before what they would meet (`flight`, `scatter`). Where media vary, it is drawn first where paths scatter, and the light is sampled there. All of it
+//! in one pass over the rays that are in something.
 
 mod context;
 mod flight;
 mod light;
+pub(crate) mod places;
 mod scatter;
 mod shine;
 mod way;
 
 use crate::accumulate::deposit::Deposits;
+use crate::media::track::{Track, seed};
 use crate::state::nearest::NearestHits;
 use crate::state::paths::Paths;
 use crate::state::queue::Queues;
-use gonio_simd::{Lanes, dispatch};
+use flight::Flight;
+use gonio_simd::{Lanes, Spectrum, dispatch};
 use way::Way;
 
 pub(crate) use context::MediumContext;
@@ -41,16 +45,22 @@ fn pass_paths<L: Lanes>(
 ) {
     let media = &context.tables.materials.media;
     for at in (0..paths.count).step_by(L::COUNT) {
-        let Some(way) = Way::load(l, media, paths, &nearest.hits, at) else { continue };
+        let Some(mut way) = Way::load(l, media, paths, &nearest.hits, at) else { continue };
+        let track = way.track(media);
+        let tracked = track.as_ref().map_or(l.m(false), |track| track.varies);
         if media.shines() {
-            shine::add(context, &way, deposits);
+            shine::add(context, &way, way.alive.and_not(tracked), deposits);
         }
         if !way.scatters.any() {
             continue;
         }
         let going_on = way.going_on(&context.transport.limits);
-        light::sample(context, &way, going_on, &mut queues.shadows, deposits);
-        let flight = flight::draw(context, &way);
+        light::sample_along(context, &way, going_on.and_not(tracked), &mut queues.shadows, deposits);
+        let mut flight = flight::draw(context, &way);
+        if let Some(track) = &track {
+            flight = pass_varying(context, (&mut way, track), flight, deposits);
+            light::sample_at(context, &way, &flight, going_on & tracked & flight.scatters, &mut queues.shadows, deposits);
+        }
         let scattered = way.scatters & flight.scatters;
         scatter::add_seen(context, &way, scattered, deposits);
         scatter::go_on(context, &way, &flight, scattered & going_on, &mut queues.next);
@@ -58,7 +68,44 @@ fn pass_paths<L: Lanes>(
     }
 }
 
-/// The same for light paths, which sample no light; those that scatter are taken from the escaped ones.
+/// Follows ways through media that vary, and adds what these send.
+#[inline(always)]
+fn pass_varying<L: Lanes>(
+    context: &MediumContext<'_>,
+    (way, track): (&mut Way<L>, &Track<'_, L>),
+    even: Flight<L>,
+    deposits: &mut Deposits,
+) -> Flight<L> {
+    if !context.tables.materials.media.shines() {
+        return flight::track(context, (way, track), even, |_, _, _| {});
+    }
+    let mut sent = Spectrum::zero(even.distance.lanes());
+    let along = *way;
+    let flight = flight::track(context, (way, track), even, |place, length, weight| {
+        sent += shine::sent(context, &along, track, place) * weight * length;
+    });
+    shine::deposit(context, way, sent * way.core.throughput, way.scatters & track.varies, deposits);
+    flight
+}
+
+/// For paths that no medium scatters: dims them by what varies before what they hit. What even media leave is told at hits.
+pub(crate) fn dim(context: &MediumContext<'_>, paths: &mut Paths, nearest: &NearestHits) {
+    dispatch!(context.transport.execution, l => dim_paths(l, context, paths, nearest));
+}
+
+#[inline(always)]
+fn dim_paths<L: Lanes>(l: L, context: &MediumContext<'_>, paths: &mut Paths, nearest: &NearestHits) {
+    let media = &context.tables.materials.media;
+    for at in (0..paths.count).step_by(L::COUNT) {
+        let Some(way) = Way::load(l, media, paths, &nearest.hits, at) else { continue };
+        let Some(track) = way.track(media) else { continue };
+        let seed = seed(way.origin, way.direction, way.from, context.sample.salt(l, way.core.slot));
+        let left = track.transmittance([way.from, way.from + way.length], way.alive, seed);
+        flight::multiply(paths, at, left);
+    }
+}
+
+/// As [`pass`] for light paths, which sample no light; those that scatter are taken from the escaped ones.
 pub(crate) fn pass_light(context: &MediumContext<'_>, paths: &mut Paths, nearest: &mut NearestHits, next: &mut Paths) {
     dispatch!(context.transport.execution, l => pass_light_paths(l, context, paths, nearest, next));
 }
@@ -67,8 +114,12 @@ pub(crate) fn pass_light(context: &MediumContext<'_>, paths: &mut Paths, nearest
 fn pass_light_paths<L: Lanes>(l: L, context: &MediumContext<'_>, paths: &mut Paths, nearest: &mut NearestHits, next: &mut Paths) {
     let NearestHits { hits, escaped, .. } = nearest;
     for at in (0..paths.count).step_by(L::COUNT) {
-        let Some(way) = Way::load(l, &context.tables.materials.media, paths, hits, at).filter(|way| way.scatters.any()) else { continue };
-        let flight = flight::draw(context, &way);
+        let media = &context.tables.materials.media;
+        let Some(mut way) = Way::load(l, media, paths, hits, at).filter(|way| way.scatters.any()) else { continue };
+        let mut flight = flight::draw(context, &way);
+        if let Some(track) = way.track(media) {
+            flight = flight::track(context, (&mut way, &track), flight, |_, _, _| {});
+        }
         let scattered = way.scatters & flight.scatters;
         scatter::go_on(context, &way, &flight, scattered & way.going_on(&context.transport.limits), next);
         let bits = scattered.bits();

@@ -5,26 +5,44 @@ use super::way::Way;
 use crate::accumulate::deposit::{Contribution, Deposits, Source, code_of_found};
 use crate::accumulate::expression_sums::with_state;
 use crate::accumulate::guides::is_specular_path;
+use crate::media::track::Track;
 use crate::words::code;
-use gonio_simd::{F, Lanes, Spectrum};
+use gonio_simd::{F, Lanes, M, Spectrum};
 
 /// Optical depths below this are as good as none.
 const THIN: f32 = 1e-3;
 
-/// Adds it: the whole of a way, in closed form, whether its path scatters on it or not.
+/// Adds it: the whole of a way through even media, in closed form, whether its path scatters on it or not.
 #[inline(always)]
-pub(super) fn add<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>, deposits: &mut Deposits) {
-    let (l, transport) = (way.pdf.lanes(), context.transport);
-    let media = &context.tables.materials.media;
+pub(super) fn add<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>, chosen: M<L>, deposits: &mut Deposits) {
+    let l = way.pdf.lanes();
     let mut emission = Spectrum::zero(l);
     for row in way.core.media.rows().into_iter().flatten() {
-        emission += media.emission(l, row);
+        emission += context.tables.materials.media.emission(l, row);
     }
-    let lit = way.alive & emission.is_lit();
-    if !lit.any() {
-        return;
+    let lit = chosen & emission.is_lit();
+    if lit.any() {
+        deposit(context, way, emission * seen_length(way) * way.core.throughput, lit, deposits);
     }
-    let value = transport.limits.clamped(emission * seen_length(way) * way.core.throughput, way.bounces());
+}
+
+/// What a metre of all media sends at a place of ways through some that vary, dimmed by the even ones before it.
+#[inline(always)]
+pub(super) fn sent<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>, track: &Track<'_, L>, place: F<L>) -> Spectrum<L> {
+    let l = place.lanes();
+    let media = &context.tables.materials.media;
+    let mut emission = track.emission(place);
+    for row in way.core.media.rows().into_iter().flatten() {
+        emission += media.emission(l, row).keep_if(media.field(l, row).eq(0));
+    }
+    emission * way.transmittance((place - way.from).max(0.0))
+}
+
+/// Adds light that comes along ways.
+#[inline(always)]
+pub(super) fn deposit<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>, light: Spectrum<L>, chosen: M<L>, deposits: &mut Deposits) {
+    let transport = context.transport;
+    let value = transport.limits.clamped(light, way.bounces());
     let flags = way.core.flags;
     let light = Contribution {
         slot: way.core.slot,
@@ -34,7 +52,7 @@ pub(super) fn add<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>, deposits:
         specular: is_specular_path(flags, way.core.slot),
         source: Source::Several,
     };
-    deposits.deposit(transport, &light, lit);
+    deposits.deposit(transport, &light, chosen & value.is_lit());
 }
 
 /// Metres of each way that are seen from its beginning: (1 − T) / σ.

@@ -2,6 +2,7 @@
 
 use crate::media::phase::PhaseMix;
 use crate::media::set::FAR;
+use crate::media::track::Track;
 use crate::state::columns::load3;
 use crate::state::path_core::PathCore;
 use crate::state::paths::Paths;
@@ -27,9 +28,10 @@ pub(super) struct Way<L: Lanes> {
     /// A metre.
     pub(super) extinction: Spectrum<L>,
     pub(super) phase: PhaseMix<L>,
-    /// Ways through anything, and those through what scatters.
+    /// Ways through anything, those through what scatters, and among them those through even media that do.
     pub(super) alive: M<L>,
     pub(super) scatters: M<L>,
+    pub(super) scatters_evenly: M<L>,
 }
 
 impl<L: Lanes> Way<L> {
@@ -49,6 +51,8 @@ impl<L: Lanes> Way<L> {
         let end = met.select(l.load_to_end(&hits.t, at), l.f(FAR));
         let phase = PhaseMix::of(l, media, table);
         let core = PathCore { width: cone.width, media, unguided: paths.unguided(l, path), ..core };
+        let lit = present & core.throughput.is_lit();
+        let scatters_evenly = lit & phase.scattering.is_lit();
         Some(Self {
             at,
             origin: load3(l, &paths.rays.origin, at),
@@ -60,11 +64,18 @@ impl<L: Lanes> Way<L> {
             extinction: media.extinction(table),
             phase,
             alive: present,
-            scatters: present & phase.scattering.is_lit() & core.throughput.is_lit(),
+            scatters: scatters_evenly | (lit & media.varies(table)),
+            scatters_evenly,
         })
     }
 
-    /// What is left of light after so many metres of it.
+    /// The media along it that vary.
+    #[inline(always)]
+    pub(super) fn track<'a>(&self, table: &'a MediumTable) -> Option<Track<'a, L>> {
+        Track::of(self.pdf.lanes(), table, self.core.media, self.origin, self.direction)
+    }
+
+    /// What even media leave of light after so many metres of it.
     #[inline(always)]
     pub(super) fn transmittance(&self, distance: F<L>) -> Spectrum<L> {
         (self.extinction * -distance).exp()

@@ -3,6 +3,7 @@
 use crate::graph::CHUNK;
 use crate::media::set::{MediaColumns, MediaSet};
 use crate::state::rays::{RayLanes, Rays};
+use crate::state::sample::SampleContext;
 use crate::state::times::SlotTimes;
 use crate::tables::Tables;
 use crate::tables::transport::Transport;
@@ -72,6 +73,8 @@ pub(crate) struct ShadowRays {
     pub(crate) receiver: Column<u32>,
     /// What rays start in; filled where anything absorbs.
     pub(crate) media: MediaColumns,
+    /// What tells samples apart that send the same ray; filled where media vary.
+    pub(crate) salt: Column<u32>,
     /// Surfaces that paths have gone straight through; filled where anything is transparent and their number is limited.
     pub(crate) straight: Column<u32>,
     /// Most that contributions may come to; filled where programs know what lights emit and contributions are clamped.
@@ -98,6 +101,7 @@ impl ShadowRays {
             shares: [SpectrumColumns::new(room), SpectrumColumns::new(room)],
             receiver: Column::new(room),
             media: MediaColumns::new(room),
+            salt: Column::new(room),
             straight: Column::new(room),
             ceiling: Column::new(room),
         }
@@ -116,6 +120,13 @@ impl ShadowRays {
     /// Sets the times of all rays by their slots.
     pub(crate) fn set_times(&mut self, times: &SlotTimes) {
         self.rays.set_times(times.of(self.slot[..self.count].iter().copied()));
+    }
+
+    /// Tells the samples of all rays apart by their slots.
+    pub(crate) fn set_salts<L: Lanes>(&mut self, l: L, sample: &SampleContext<'_>) {
+        for at in (0..self.count).step_by(L::COUNT) {
+            sample.salt(l, l.load_integers(&self.slot, at)).store(&mut self.salt, at);
+        }
     }
 
     /// Whether the shadow rays of some more hits fit into the queue.

@@ -1,0 +1,185 @@
+//! Fields of media as tables of bricks.
+
+use crate::{
+    error::Diagnostic,
+    scene::{BRICK, Field, Lattice, Scene},
+    transport::{FieldLayout, FieldTable, GLOW, Numbers, POINTS},
+};
+use std::collections::HashMap;
+
+/// Points of a brick.
+type Points = [f32; POINTS * POINTS * POINTS];
+/// More bricks than these are not laid out: their bounds alone would take a gigabyte.
+const MOST_BRICKS: usize = 1 << 26;
+/// More bricks that vary have no place in a table: 7 GB.
+const MOST_FILLED: usize = 2_800_000;
+
+/// Fields laid out, row 1 on, and which can be used; the others are told and stay empty.
+pub(super) fn compile(scene: &Scene, diagnostics: &mut Vec<Diagnostic>) -> (FieldTable, Vec<bool>) {
+    let mut filled = 0;
+    let mut usable = |field: &Field| match problem(field, &mut filled) {
+        Some(problem) => {
+            diagnostics.push(Diagnostic::warning(&field.origin, format!("{problem}; the volume is left out")));
+            false
+        }
+        None => true,
+    };
+    let kept: Vec<bool> = scene.fields.iter().map(&mut usable).collect();
+    let laid: Vec<Option<Laid<'_>>> = scene.fields.iter().zip(&kept).map(|(field, kept)| kept.then(|| Laid::new(field))).collect();
+    let layouts: Vec<Option<FieldLayout<'_>>> = laid.iter().map(|laid| laid.as_ref().map(Laid::layout)).collect();
+    (FieldTable::new(&layouts), kept)
+}
+
+/// Tells where fields lie, in world space rebased to an origin.
+pub(super) fn place(scene: &Scene, origin: [f64; 3], table: &mut FieldTable) {
+    for (field, row) in scene.fields.iter().zip(1..) {
+        let Some(inverse) = field.to_world.inverse() else { continue };
+        let (shift, base) = (inverse.point(origin), base(field));
+        let axis = |axis: usize| {
+            let [x, y, z, _] = inverse.columns.map(|column| column[axis] as f32);
+            [x, y, z, (shift[axis] - f64::from(base[axis])) as f32]
+        };
+        table.place(row, [axis(0), axis(1), axis(2)]);
+    }
+}
+
+/// What makes a field useless.
+fn problem(field: &Field, filled: &mut usize) -> Option<String> {
+    let [min, max] = field.domain();
+    let is_box = (0..3).all(|axis| min[axis].is_finite() && max[axis].is_finite() && min[axis] < max[axis]);
+    if field.to_world.inverse().is_none() || !is_box {
+        return Some("it is flat, or lies at no finite place".into());
+    }
+    let lattices = || [&field.density].into_iter().chain(&field.heat);
+    if lattices().any(|lattice| lattice.values.len() != lattice.bricks.len() * 512 || lattice.blocks.len() != lattice.block_values.len()) {
+        return Some("its arrays have other lengths than its bricks".into());
+    }
+    let bricks = bricks(field).iter().try_fold(1usize, |product, n| product.checked_mul(*n)).unwrap_or(usize::MAX);
+    if bricks > MOST_BRICKS {
+        return Some(format!("its box has {bricks} bricks of 8³ voxels, at most {MOST_BRICKS} are laid out: resample it"));
+    }
+    // The neighbours on the side of lesser coordinates of each brick vary with it.
+    *filled += lattices().map(|lattice| (lattice.bricks.len() + lattice.blocks.len()) * 2).sum::<usize>();
+    (*filled > MOST_FILLED)
+        .then(|| format!("all volumes together have {filled} bricks that vary, at most {MOST_FILLED} are held: resample it"))
+}
+
+/// The lattice point that the first brick begins at.
+fn base(field: &Field) -> [i32; 3] {
+    let [min, _] = field.domain();
+    // Arrays reach half a voxel beyond their points, bricks of grids keep their places.
+    min.map(|x| if field.density.extended.is_some() { x.floor() as i32 } else { (x.floor() as i32).div_euclid(BRICK) * BRICK })
+}
+
+/// Bricks along the axes.
+fn bricks(field: &Field) -> [usize; 3] {
+    let ([_, max], base) = (field.domain(), base(field));
+    [0, 1, 2].map(|axis| ((f64::from(max[axis]).floor() as i64 - i64::from(base[axis])) / i64::from(BRICK) + 1).max(1) as usize)
+}
+
+/// A field to be laid out.
+struct Laid<'a> {
+    field: &'a Field,
+    density: Places<'a>,
+    heat: Option<Places<'a>>,
+}
+
+impl<'a> Laid<'a> {
+    fn new(field: &'a Field) -> Self {
+        let base = base(field);
+        Self { field, density: Places::new(&field.density, base), heat: field.heat.as_ref().map(|heat| Places::new(heat, base)) }
+    }
+
+    fn layout(&self) -> FieldLayout<'_> {
+        let (field, base) = (self.field, base(self.field));
+        let domain = field.domain().map(|corner| [0, 1, 2].map(|axis| corner[axis] - base[axis] as f32));
+        let heat = self.heat.as_ref().map(|heat| heat as &dyn Numbers);
+        FieldLayout { bricks: bricks(field), domain, density: &self.density, heat, glow: glow(field), hottest: field.hottest }
+    }
+}
+
+/// Factors on the emission, as many as tables have.
+fn glow(field: &Field) -> [[f32; 3]; GLOW] {
+    let last = field.glow.len().saturating_sub(1);
+    let factor = |i: usize| {
+        let part = i as f32 / (GLOW - 1) as f32;
+        let Some(at) = field.glow.get(..).filter(|factors| !factors.is_empty()).map(|_| part * last as f32) else {
+            return [part * field.hottest; 3];
+        };
+        let (low, high) = (field.glow[at as usize], field.glow[(at as usize + 1).min(last)]);
+        [0, 1, 2].map(|c| (high[c] - low[c]).mul_add(at.fract(), low[c])).map(|x| if x.is_finite() { x } else { 0.0 })
+    };
+    std::array::from_fn(factor)
+}
+
+/// Where a lattice has its numbers.
+#[derive(Debug)]
+struct Places<'a> {
+    lattice: &'a Lattice,
+    base: [i32; 3],
+    bricks: HashMap<[i32; 3], usize>,
+    blocks: HashMap<[i32; 3], f32>,
+}
+
+/// What lies in a block of 8³ points.
+#[derive(Clone, Copy, Debug)]
+enum Block<'a> {
+    Even(f32),
+    Brick(&'a [f32]),
+}
+
+impl<'a> Places<'a> {
+    fn new(lattice: &'a Lattice, base: [i32; 3]) -> Self {
+        let block = |point: &[i32; 3]| point.map(|x| x.div_euclid(BRICK));
+        let bricks = lattice.bricks.iter().map(block).zip(0..).collect();
+        let blocks = lattice.blocks.iter().map(block).zip(lattice.block_values.iter().copied()).collect();
+        Self { lattice, base, bricks, blocks }
+    }
+
+    fn block(&self, block: [i32; 3]) -> Block<'a> {
+        match self.bricks.get(&block) {
+            Some(brick) => Block::Brick(&self.lattice.values[brick * 512..][..512]),
+            None => Block::Even(self.blocks.get(&block).copied().unwrap_or(0.0)),
+        }
+    }
+
+    /// The points of a brick along an axis, held within the array where that goes on beyond its edges.
+    fn along(&self, axis: usize, brick: usize) -> [i32; POINTS] {
+        let first = self.base[axis] + brick as i32 * BRICK;
+        std::array::from_fn(|i| {
+            let point = first + i as i32;
+            self.lattice.extended.map_or(point, |[min, max]| point.clamp(min[axis], max[axis]))
+        })
+    }
+}
+
+impl Numbers for Places<'_> {
+    fn brick(&self, brick: [usize; 3], points: &mut Points) -> Option<f32> {
+        let [x, y, z] = [0, 1, 2].map(|axis| self.along(axis, brick[axis]));
+        let first = [x[0], y[0], z[0]].map(|point| point.div_euclid(BRICK));
+        let last = [x[8], y[8], z[8]].map(|point| point.div_euclid(BRICK));
+        // Nine points in a row lie in two blocks at most.
+        let blocks: [Block<'_>; 8] = std::array::from_fn(|n| self.block([0, 1, 2].map(|axis| [first, last][n >> axis & 1][axis])));
+        let even = |block: &Block<'_>| if let Block::Even(value) = block { Some(*value) } else { None };
+        if let Some(value) = even(&blocks[0])
+            && blocks.iter().all(|block| even(block) == Some(value))
+        {
+            return Some(value);
+        }
+        let side = |axis: usize, point: i32| usize::from(point.div_euclid(BRICK) != first[axis]) << axis;
+        let mut at = 0;
+        for x in x {
+            for y in y {
+                let (sides, row) = (side(0, x) | side(1, y), x.rem_euclid(BRICK) * 64 + y.rem_euclid(BRICK) * 8);
+                for z in z {
+                    points[at] = match blocks[sides | side(2, z)] {
+                        Block::Even(value) => value,
+                        Block::Brick(values) => values[(row + z.rem_euclid(BRICK)) as usize],
+                    };
+                    at += 1;
+                }
+            }
+        }
+        None
+    }
+}

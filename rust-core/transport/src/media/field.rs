@@ -1,0 +1,201 @@
+//! Lookups in fields along rays: densities, heats, and cells whose density has a bound.
+
+use crate::tables::fields::{FieldTable, GLOW, LOG2_BRICK, LOG2_COARSE, ROW, WORDS};
+use gonio_simd::{F, Lanes, M, Rgb, Spectrum, U, Vec3};
+
+/// A register of rays in the coordinates of their fields.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FieldRays<L: Lanes> {
+    /// Rows of the field table.
+    field: U<L>,
+    origin: Vec3<L>,
+    direction: Vec3<L>,
+    inverse: Vec3<L>,
+    /// The box that the field fills.
+    domain: [Vec3<L>; 2],
+    hottest: F<L>,
+    /// See [`FieldTable::bricks`] and [`FieldTable::coarse`].
+    bricks: [U<L>; 4],
+    coarse: [U<L>; 4],
+    /// Metres that stand for nothing: a thousandth of a cell.
+    step: F<L>,
+}
+
+/// A stretch of a ray over which the density has a bound.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cell<L: Lanes> {
+    /// The greatest density on it.
+    pub(crate) most: F<L>,
+    /// Metres at which it ends.
+    pub(crate) exit: F<L>,
+}
+
+/// Where a lattice is looked up: bricks, cells within them, and parts of a cell.
+struct Place<L: Lanes> {
+    brick: U<L>,
+    row: U<L>,
+    part: Vec3<L>,
+}
+
+impl<L: Lanes> FieldRays<L> {
+    /// Rays in rebased world space.
+    #[inline(always)]
+    pub(crate) fn new(l: L, table: &FieldTable, field: U<L>, origin: Vec3<L>, direction: Vec3<L>) -> Self {
+        let at = field * ROW as u32;
+        let rows = [0, 1, 2].map(
+            #[inline(always)]
+            |axis| l.gather_quads(&table.to_lattice[axis], at),
+        );
+        let [x, y, z] = rows.map(
+            #[inline(always)]
+            |[x, y, z, _]| Vec3::new(x, y, z),
+        );
+        let moved = Vec3::new(rows[0][3], rows[1][3], rows[2][3]);
+        let turned = |v: Vec3<L>| Vec3::new(x.dot(v), y.dot(v), z.dot(v));
+        let [low, high] = [0, 1].map(
+            #[inline(always)]
+            |end| l.gather_quads(&table.domain[end], at),
+        );
+        let direction = turned(direction);
+        let safe = |x: F<L>| x.abs().max(1e-20).copysign(x).recip();
+        Self {
+            field,
+            origin: turned(origin) + moved,
+            direction,
+            inverse: Vec3::new(safe(direction.x), safe(direction.y), safe(direction.z)),
+            domain: [Vec3::new(low[0], low[1], low[2]), Vec3::new(high[0], high[1], high[2])],
+            hottest: low[3],
+            bricks: l.gather_integer_quads(&table.bricks, at),
+            coarse: l.gather_integer_quads(&table.coarse, at),
+            step: direction.max_abs().max(1e-20).recip() * 1e-3,
+        }
+    }
+
+    /// Where they have a field.
+    #[inline(always)]
+    pub(crate) fn any(&self) -> M<L> {
+        self.field.ne(0)
+    }
+
+    /// Lattice coordinates after so many metres.
+    #[inline(always)]
+    fn at(&self, distance: F<L>) -> Vec3<L> {
+        self.direction.mul_add(distance, self.origin)
+    }
+
+    /// Whether a point is in the box.
+    #[inline(always)]
+    fn holds(&self, point: Vec3<L>) -> M<L> {
+        let [low, high] = self.domain;
+        let above = point.x.ge(low.x) & point.y.ge(low.y) & point.z.ge(low.z);
+        self.any() & above & point.x.le(high.x) & point.y.le(high.y) & point.z.le(high.z)
+    }
+
+    /// The cell in which rays go on behind so many metres.
+    #[inline(always)]
+    pub(crate) fn cell(&self, l: L, table: &FieldTable, distance: F<L>) -> Cell<L> {
+        let point = self.at(distance + self.step);
+        let ([low, high], inside) = (self.domain, self.holds(point));
+        let [x, y, z] = [point.x, point.y, point.z].map(
+            #[inline(always)]
+            |x| x.max(0.0).to_i32(),
+        );
+        let brick = |shift: u32, shape: &[U<L>; 4]| ((x >> shift) * shape[0] + (y >> shift)) * shape[1] + (z >> shift);
+        let block = brick(LOG2_BRICK + LOG2_COARSE, &self.coarse) + self.coarse[2];
+        let filled = l.gather(&table.filled, block.keep_if(inside)).gt(0.0) & inside;
+        let fine = (brick(LOG2_BRICK, &self.bricks) + self.bricks[2]).keep_if(filled);
+        let most = l.gather(&table.bounds, fine * ROW as u32 + 2).keep_if(filled);
+        let edge = filled.select(l.u(1 << LOG2_BRICK), l.u(1 << (LOG2_BRICK + LOG2_COARSE)));
+        // The face that each axis leaves by, cut off at the box's.
+        let exit = |x: U<L>, low: F<L>, high: F<L>, origin: F<L>, direction: F<L>, inverse: F<L>| {
+            let first = x & (l.u(0) - edge);
+            let face = direction.gt(0.0).select((first + edge).i32_to_float().min(high), first.i32_to_float().max(low));
+            (face - origin) * inverse
+        };
+        let leaving = exit(x, low.x, high.x, self.origin.x, self.direction.x, self.inverse.x)
+            .min(exit(y, low.y, high.y, self.origin.y, self.direction.y, self.inverse.y))
+            .min(exit(z, low.z, high.z, self.origin.z, self.direction.z, self.inverse.z));
+        let exit = inside.select(leaving, self.entry(l, distance)).max(distance + self.step);
+        Cell { most, exit }
+    }
+
+    /// Where rays outside come into the box, infinitely far if they do not.
+    #[inline(always)]
+    fn entry(&self, l: L, distance: F<L>) -> F<L> {
+        let [low, high] = self.domain;
+        let mut range = [distance, l.f(f32::INFINITY)];
+        for (low, high, origin, inverse) in [
+            (low.x, high.x, self.origin.x, self.inverse.x),
+            (low.y, high.y, self.origin.y, self.inverse.y),
+            (low.z, high.z, self.origin.z, self.inverse.z),
+        ] {
+            let (a, b) = ((low - origin) * inverse, (high - origin) * inverse);
+            range = [range[0].max(a.min(b)), range[1].min(a.max(b))];
+        }
+        (self.any() & range[0].lt(range[1]) & range[0].gt(distance)).select(range[0], l.f(f32::INFINITY))
+    }
+
+    #[inline(always)]
+    fn place(&self, distance: F<L>) -> Place<L> {
+        let point = self.at(distance);
+        let [low, high] = self.domain;
+        let held = [(point.x, low.x, high.x), (point.y, low.y, high.y), (point.z, low.z, high.z)].map(
+            #[inline(always)]
+            |(x, low, high)| x.clamp(low, high),
+        );
+        let [x, y, z] = held.map(
+            #[inline(always)]
+            |x| x.to_i32(),
+        );
+        let [u, v, w] = held.map(
+            #[inline(always)]
+            |x| x - x.floor(),
+        );
+        let brick = ((x >> LOG2_BRICK) * self.bricks[0] + (y >> LOG2_BRICK)) * self.bricks[1] + (z >> LOG2_BRICK);
+        let row = ((x & 7) * 9 + (y & 7)) * 8 + (z & 7);
+        Place { brick, row, part: Vec3::new(u, v, w) }
+    }
+
+    /// The density after so many metres.
+    #[inline(always)]
+    pub(crate) fn density(&self, l: L, table: &FieldTable, distance: F<L>) -> F<L> {
+        value(l, table, &self.place(distance), self.bricks[2]).keep_if(self.any())
+    }
+
+    /// Factor on the emission after so many metres; 0 outside.
+    #[inline(always)]
+    pub(crate) fn glow(&self, l: L, table: &FieldTable, distance: F<L>) -> Spectrum<L> {
+        let inside = Spectrum::constant(l.f(1.0).keep_if(self.holds(self.at(distance))));
+        let is_hot = self.bricks[3].ne(0);
+        if !is_hot.any() {
+            return inside;
+        }
+        let heat = value(l, table, &self.place(distance), self.bricks[3]);
+        let last = (GLOW - 1) as f32;
+        let at = (heat / self.hottest.max(f32::MIN_POSITIVE) * last).clamp(0.0, last);
+        let below = at.floor().min(last - 1.0);
+        let row = (self.coarse[3] * GLOW as u32 + below.to_i32()) * ROW as u32;
+        let [low, high] = [row, row + ROW as u32].map(
+            #[inline(always)]
+            |row| {
+                let [r, g, b, _] = l.gather_quads(&table.glow, row);
+                Spectrum::radiance(Rgb::new(r, g, b))
+            },
+        );
+        inside * is_hot.select(low.lerp(high, at - below), Spectrum::one(l))
+    }
+}
+
+/// The trilinear value at a place of the lattice whose bricks begin at one.
+#[inline(always)]
+fn value<L: Lanes>(l: L, table: &FieldTable, place: &Place<L>, first: U<L>) -> F<L> {
+    let [least, span, _, words] = l.gather_quads(&table.bounds, (place.brick + first) * ROW as u32);
+    let at = words.to_bits() * WORDS as u32 + place.row;
+    let Vec3 { x: u, y: v, z: w } = place.part;
+    let row = |offset: u32| {
+        let pair = l.gather_integers(&table.words, at + offset);
+        (pair & 0xffff).i32_to_float().lerp((pair >> 16).i32_to_float(), w)
+    };
+    let code = row(0).lerp(row(8), v).lerp(row(72).lerp(row(80), v), u);
+    span.mul_add(code, least)
+}

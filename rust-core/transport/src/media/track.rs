@@ -1,0 +1,209 @@
+//! Tracking: paths through media that vary, by collisions as frequent as the bound of the density in each cell.
+//!
+//! Collisions are weighed (Kutz and others, Spectral and Decomposition Tracking for Rendering Heterogeneous Volumes, 2017): absorption is a weight, never
+//! an end. Even media beside them are not tracked: they have closed forms.
+
+use super::field::{Cell, FieldRays};
+use super::set::MediaSet;
+use crate::tables::media::MediumTable;
+use gonio_nodes::hash::hash2;
+use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
+
+/// Most steps of a ray: a guard against endless ones.
+const MOST_STEPS: u32 = 1 << 16;
+/// Weights below this are as good as none.
+const LEAST_WEIGHT: f32 = 1e-6;
+
+/// A medium that varies, along a register of rays.
+#[derive(Clone, Copy, Debug)]
+struct Part<L: Lanes> {
+    rays: FieldRays<L>,
+    extinction: Spectrum<L>,
+    scattering: Spectrum<L>,
+    emission: Spectrum<L>,
+    /// The greatest component of the extinction.
+    most: F<L>,
+}
+
+/// The media along a register of rays that vary.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Track<'a, L: Lanes> {
+    table: &'a MediumTable,
+    parts: [Option<Part<L>>; 4],
+    /// Rays in any.
+    pub(crate) varies: M<L>,
+}
+
+/// Where rays come to.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Tracked<L: Lanes> {
+    /// Those that scatter, and after how many metres.
+    pub(crate) scatters: M<L>,
+    pub(crate) distance: F<L>,
+    /// What is left of light there, over the probability of it; times the scattering where they scatter.
+    pub(crate) weight: Spectrum<L>,
+}
+
+/// Random numbers of a register of rays.
+#[derive(Clone, Copy, Debug)]
+struct Random<L: Lanes> {
+    seed: U<L>,
+    count: u32,
+}
+
+impl<L: Lanes> Random<L> {
+    #[inline(always)]
+    fn next(&mut self) -> F<L> {
+        self.count += 1;
+        let l = self.seed.lanes();
+        (hash2(l, self.seed, l.u(self.count)) >> 8).i32_to_float() * (1.0 / 16_777_216.0)
+    }
+}
+
+/// A seed for a ray from somewhere on; `salt` tells samples apart that send the very same ray.
+#[inline(always)]
+pub(crate) fn seed<L: Lanes>(origin: Vec3<L>, direction: Vec3<L>, from: F<L>, salt: U<L>) -> U<L> {
+    let l = from.lanes();
+    let place = hash2(l, origin.x.to_bits() ^ origin.y.to_bits().reverse_bits(), origin.z.to_bits() ^ from.to_bits().reverse_bits());
+    let along = hash2(l, place ^ direction.x.to_bits(), direction.y.to_bits() ^ direction.z.to_bits().reverse_bits());
+    hash2(l, along, salt)
+}
+
+impl<'a, L: Lanes> Track<'a, L> {
+    /// Those of rays that are in some media, from their places on; `None` where nothing varies.
+    #[inline(always)]
+    pub(crate) fn of(l: L, table: &'a MediumTable, media: MediaSet<L>, origin: Vec3<L>, direction: Vec3<L>) -> Option<Self> {
+        if !table.varies() {
+            return None;
+        }
+        let mut parts = [None; 4];
+        let mut varies = l.m(false);
+        for (part, row) in parts.iter_mut().zip(media.rows()) {
+            let Some(row) = row else { continue };
+            let field = table.field(l, row);
+            let here = field.ne(0);
+            if !here.any() {
+                continue;
+            }
+            varies |= here;
+            let extinction = table.field_extinction(l, row);
+            *part = Some(Part {
+                rays: FieldRays::new(l, &table.fields, field, origin, direction),
+                extinction,
+                scattering: table.scattering(l, row).keep_if(here),
+                emission: table.emission(l, row).keep_if(here),
+                most: extinction.max_component(),
+            });
+        }
+        varies.any().then_some(Self { table, parts, varies })
+    }
+
+    /// The bound of the extinction behind so many metres, and where it ends to hold.
+    #[inline(always)]
+    fn cell(&self, distance: F<L>) -> (F<L>, F<L>) {
+        let l = distance.lanes();
+        let (mut majorant, mut exit) = (l.f(0.0), l.f(f32::INFINITY));
+        for part in self.parts.iter().flatten() {
+            let Cell { most, exit: end } = part.rays.cell(l, &self.table.fields, distance);
+            majorant = most.mul_add(part.most, majorant);
+            exit = part.rays.any().select(exit.min(end), exit);
+        }
+        (majorant, exit)
+    }
+
+    /// Densities after so many metres, by the media's order.
+    #[inline(always)]
+    pub(crate) fn densities(&self, distance: F<L>) -> [F<L>; 4] {
+        let l = distance.lanes();
+        self.parts.map(
+            #[inline(always)]
+            |part| part.map_or(l.f(0.0), |part| part.rays.density(l, &self.table.fields, distance)),
+        )
+    }
+
+    /// Scattering and extinction a metre after so many metres.
+    #[inline(always)]
+    pub(crate) fn coefficients(&self, distance: F<L>) -> [Spectrum<L>; 2] {
+        let l = distance.lanes();
+        let mut sums = [Spectrum::zero(l); 2];
+        for (part, density) in self.parts.iter().zip(self.densities(distance)) {
+            let Some(part) = part else { continue };
+            sums[0] += part.scattering * density;
+            sums[1] += part.extinction * density;
+        }
+        sums
+    }
+
+    /// Radiance that a metre sends after so many metres.
+    #[inline(always)]
+    pub(crate) fn emission(&self, distance: F<L>) -> Spectrum<L> {
+        let l = distance.lanes();
+        let mut sum = Spectrum::zero(l);
+        for part in self.parts.iter().flatten().filter(|part| part.emission.is_lit().any()) {
+            sum += part.emission * part.rays.glow(l, &self.table.fields, distance);
+        }
+        sum
+    }
+
+    /// Takes the chosen rays on until they scatter, or have gone so many metres from where the distances count.
+    ///
+    /// `scatter` has the weights of the components of light by which it is drawn whether a collision scatters, and the number that the first flight is
+    /// drawn by; without it nothing scatters. `shines` takes what each step sends, over its metres: a place on it, its length, and the weight there.
+    #[inline(always)]
+    pub(crate) fn go(
+        &self,
+        [from, to]: [F<L>; 2],
+        chosen: M<L>,
+        scatter: Option<(Spectrum<L>, F<L>)>,
+        seed: U<L>,
+        mut shines: impl FnMut(F<L>, F<L>, Spectrum<L>),
+    ) -> Tracked<L> {
+        let l = from.lanes();
+        let depth = |u: F<L>| -(1.0 - u).max(1e-9).ln();
+        let mut random = Random { seed, count: 0 };
+        let (mut t, mut weight) = (from, Spectrum::one(l));
+        let mut flight = depth(scatter.map_or_else(|| random.next(), |(_, u)| u));
+        let mut active = chosen & self.varies & from.lt(to);
+        let mut scattered = l.m(false);
+        for _ in 0..MOST_STEPS {
+            if !active.any() {
+                break;
+            }
+            let (majorant, exit) = self.cell(t);
+            let exit = exit.min(to);
+            let hit = t + flight / majorant.max(f32::MIN_POSITIVE);
+            let collides = active & hit.lt(exit);
+            let next = active.select(collides.select(hit, exit), t);
+            shines(random.next().mul_add(next - t, t), (next - t).keep_if(active), weight);
+            flight = collides.select(depth(random.next()), (flight - majorant * (next - t)).max(0.0));
+            t = next;
+            if collides.any() {
+                let [scattering, extinction] = self.coefficients(t);
+                let null = Spectrum::constant(majorant) + extinction * l.f(-1.0);
+                let probability = match scatter {
+                    Some((channels, _)) => {
+                        let shares = (weight * channels).abs();
+                        let (some, none) = (shares.dot(scattering), shares.dot(null.abs()));
+                        some / (some + none).max(f32::MIN_POSITIVE)
+                    }
+                    None => l.f(0.0),
+                };
+                let scatters = collides & random.next().lt(probability);
+                let drawn = majorant * scatters.select(probability, 1.0 - probability);
+                let factor = scatters.select(scattering, null) * drawn.max(f32::MIN_POSITIVE).recip();
+                weight = collides.select(weight * factor, weight);
+                scattered |= scatters;
+            }
+            active = active.and_not(scattered) & t.lt(to) & weight.abs().max_component().gt(LEAST_WEIGHT);
+        }
+        let lost = (chosen & self.varies & t.lt(to)).and_not(scattered);
+        Tracked { scatters: scattered, distance: t, weight: lost.select(Spectrum::zero(l), weight) }
+    }
+
+    /// What is left of light along the chosen rays; an estimate.
+    #[inline(always)]
+    pub(crate) fn transmittance(&self, way: [F<L>; 2], chosen: M<L>, seed: U<L>) -> Spectrum<L> {
+        let left = self.go(way, chosen, None, seed, |_, _, _| {}).weight;
+        (chosen & self.varies).select(left, Spectrum::one(left.lanes()))
+    }
+}

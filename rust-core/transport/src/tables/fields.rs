@@ -1,0 +1,208 @@
+//! What varies within media: numbers on lattices, as bricks of 8³ cells with their bounds.
+//!
+//! A brick holds the 9³ points about its cells, so that one brick serves a lookup, in 16 bits between its least and its greatest value. Two that follow
+//! each other along z share a word: four gathers are a trilinear lookup.
+
+use gonio_simd::{Column, PADDING};
+
+/// Cells along a brick's edge, as a power of two.
+pub(crate) const LOG2_BRICK: u32 = 3;
+/// Bricks along the edge of what is skipped together where it is empty, as a power of two.
+pub(crate) const LOG2_COARSE: u32 = 2;
+/// Points along a brick's edge.
+pub const POINTS: usize = 9;
+/// Words of a brick: 9 × 9 rows of 8 pairs.
+pub(crate) const WORDS: usize = POINTS * POINTS * 8;
+/// Words of a brick's bounds, and of a field's row.
+pub(crate) const ROW: usize = 4;
+/// The greatest code of a value.
+pub(crate) const CODES: f32 = 65535.0;
+/// Factors of a field's glow.
+pub const GLOW: usize = 256;
+
+/// A lattice of numbers that is to be laid out.
+pub trait Numbers: std::fmt::Debug {
+    /// Fills the points of a brick, z fastest, or says that all of them have one value.
+    fn brick(&self, brick: [usize; 3], points: &mut [f32; POINTS * POINTS * POINTS]) -> Option<f32>;
+}
+
+/// A field that is to be laid out.
+#[derive(Debug)]
+pub struct FieldLayout<'a> {
+    /// Bricks along the axes.
+    pub bricks: [usize; 3],
+    /// The box that it fills, lattice coordinates of 0 or more.
+    pub domain: [[f32; 3]; 2],
+    /// The density; below 0 it counts as 0.
+    pub density: &'a dyn Numbers,
+    /// What the emission follows.
+    pub heat: Option<&'a dyn Numbers>,
+    /// Factors on the emission, evenly from heat 0 to `hottest`.
+    pub glow: [[f32; 3]; GLOW],
+    /// The heat of the last.
+    pub hottest: f32,
+}
+
+/// All of a scene. Row 0 is an empty field.
+#[derive(Clone, Debug)]
+pub struct FieldTable {
+    /// By axis, from rebased world space to the lattice: three factors and what is added.
+    pub(crate) to_lattice: [Column; 3],
+    /// Least coordinates and the hottest heat; greatest coordinates.
+    pub(crate) domain: [Column; 2],
+    /// Bricks along y and z, the first brick's bounds of the density, and of the heat (0 for none).
+    pub(crate) bricks: Column<u32>,
+    /// Bricks along y and z of the coarse ones, the first of those, and the number of the field's glow.
+    pub(crate) coarse: Column<u32>,
+    /// By brick: least value, span of its codes, greatest value, place of its words over [`WORDS`], as bits.
+    pub(crate) bounds: Column,
+    /// By coarse brick, 1 where there is any density or heat.
+    pub(crate) filled: Column,
+    /// Pairs of codes.
+    pub(crate) words: Column<u32>,
+    /// Factors on emission, R, G, B, and a blank.
+    pub(crate) glow: Column,
+}
+
+impl Default for FieldTable {
+    fn default() -> Self {
+        Layout::default().table()
+    }
+}
+
+impl FieldTable {
+    /// Lays fields out, in their order from row 1 on; those that are missing stay empty.
+    pub fn new(fields: &[Option<FieldLayout<'_>>]) -> Self {
+        let mut layout = Layout::default();
+        for field in fields {
+            match field {
+                Some(field) => layout.add(field),
+                None => layout.add_empty(),
+            }
+        }
+        layout.table()
+    }
+    /// Places a field: from rebased world space to its lattice, a row an axis, three factors and what is added.
+    pub fn place(&mut self, row: u32, to_lattice: [[f32; 4]; 3]) {
+        for (rows, values) in self.to_lattice.iter_mut().zip(to_lattice) {
+            rows[row as usize * ROW..][..ROW].copy_from_slice(&values);
+        }
+    }
+    /// Bytes of it.
+    pub fn memory(&self) -> usize {
+        4 * (self.words.len() + self.bounds.len() + self.filled.len())
+    }
+}
+
+/// A table that grows.
+struct Layout {
+    to_lattice: [Vec<f32>; 3],
+    domain: [Vec<f32>; 2],
+    bricks: Vec<u32>,
+    coarse: Vec<u32>,
+    bounds: Vec<f32>,
+    filled: Vec<f32>,
+    words: Vec<u32>,
+    glow: Vec<f32>,
+}
+
+impl Default for Layout {
+    fn default() -> Self {
+        // An empty field of one brick; word 0 is that of all even bricks.
+        Self {
+            to_lattice: [0; 3].map(|_| vec![0.0; ROW]),
+            domain: [vec![0.0; ROW], vec![0.0; ROW]],
+            bricks: vec![1, 1, 0, 0],
+            coarse: vec![1, 1, 0, 0],
+            bounds: vec![0.0; ROW],
+            filled: vec![0.0],
+            words: vec![0; WORDS],
+            glow: vec![0.0; ROW * GLOW],
+        }
+    }
+}
+
+impl Layout {
+    fn add(&mut self, field: &FieldLayout<'_>) {
+        self.to_lattice.iter_mut().for_each(|rows| rows.extend([0.0; ROW]));
+        let [[x, y, z], [a, b, c]] = field.domain;
+        self.domain[0].extend([x, y, z, field.hottest]);
+        self.domain[1].extend([a, b, c, 0.0]);
+        let [_, ny, nz] = field.bricks.map(|n| n as u32);
+        let density = self.numbers(field.bricks, field.density);
+        let heat = field.heat.map_or(0, |heat| self.numbers(field.bricks, heat));
+        self.bricks.extend([ny, nz, density, heat]);
+        let coarse = field.bricks.map(|n| n.div_ceil(1 << LOG2_COARSE));
+        let first = self.filled.len();
+        self.coarse.extend([coarse[1] as u32, coarse[2] as u32, first as u32, (self.glow.len() / (ROW * GLOW)) as u32]);
+        self.filled.resize(first + coarse.iter().product::<usize>(), 0.0);
+        for (number, [x, y, z]) in places(field.bricks).enumerate() {
+            let any = |first: u32| first != 0 && self.bounds[(first as usize + number) * ROW + 2] > 0.0;
+            if any(density) || any(heat) {
+                let [x, y, z] = [x, y, z].map(|n| n >> LOG2_COARSE);
+                self.filled[first + (x * coarse[1] + y) * coarse[2] + z] = 1.0;
+            }
+        }
+        self.glow.extend(field.glow.iter().flat_map(|[r, g, b]| [*r, *g, *b, 0.0]));
+    }
+
+    fn add_empty(&mut self) {
+        let rows = self.to_lattice.iter_mut().chain(&mut self.domain);
+        rows.for_each(|rows| rows.extend([0.0; ROW]));
+        self.bricks.extend([1, 1, 0, 0]);
+        self.coarse.extend([1, 1, 0, 0]);
+    }
+
+    /// Adds the bricks of a lattice and gives the number of the first.
+    fn numbers(&mut self, bricks: [usize; 3], numbers: &dyn Numbers) -> u32 {
+        let first = self.bounds.len() / ROW;
+        let mut points = [0.0; POINTS * POINTS * POINTS];
+        for brick in places(bricks) {
+            let row = match numbers.brick(brick, &mut points) {
+                Some(value) => [value.max(0.0), 0.0, value.max(0.0), f32::from_bits(0)],
+                None => self.brick(&mut points),
+            };
+            self.bounds.extend(row);
+        }
+        first as u32
+    }
+
+    /// Adds a brick's words and gives its bounds.
+    fn brick(&mut self, points: &mut [f32; POINTS * POINTS * POINTS]) -> [f32; ROW] {
+        points.iter_mut().for_each(|point| *point = point.max(0.0));
+        let (least, most) = points.iter().fold((f32::MAX, 0.0f32), |(least, most), point| (least.min(*point), most.max(*point)));
+        if least == most {
+            return [least, 0.0, most, f32::from_bits(0)];
+        }
+        let place = (self.words.len() / WORDS) as u32;
+        let code = |point: f32| ((point - least) / (most - least) * CODES).round() as u32;
+        for row in points.as_chunks::<POINTS>().0 {
+            self.words.extend((0..8).map(|z| code(row[z]) | code(row[z + 1]) << 16));
+        }
+        [least, (most - least) / CODES, most, f32::from_bits(place)]
+    }
+
+    fn table(self) -> FieldTable {
+        FieldTable {
+            to_lattice: self.to_lattice.map(|rows| column(&rows)),
+            domain: self.domain.map(|rows| column(&rows)),
+            bricks: column(&self.bricks),
+            coarse: column(&self.coarse),
+            bounds: column(&self.bounds),
+            filled: column(&self.filled),
+            words: column(&self.words),
+            glow: column(&self.glow),
+        }
+    }
+}
+
+/// All bricks of a lattice, z fastest.
+fn places([nx, ny, nz]: [usize; 3]) -> impl Iterator<Item = [usize; 3]> {
+    (0..nx * ny * nz).map(move |n| [n / (ny * nz), n / nz % ny, n % nz])
+}
+
+fn column<T: bytemuck::Pod>(values: &[T]) -> Column<T> {
+    let mut column = Column::new(values.len() + PADDING);
+    column[..values.len()].copy_from_slice(values);
+    column
+}
