@@ -1,13 +1,9 @@
 //! Fields of media in Python: arrays, or grids of OpenVDB's and NanoVDB's files.
 
 use crate::{buffer::floats, error::setting};
-use gonio::{
-    Error,
-    compile::baked_field::{Recipe, bake},
-    scene::{Field, Graph, Input, Lattice, Texture},
-};
+use gonio::scene::{Field, Lattice};
 use pyo3::{exceptions::PyValueError, prelude::*};
-use std::{path::PathBuf, sync::atomic::AtomicBool};
+use std::path::PathBuf;
 
 /// Where a field's numbers come from.
 #[derive(FromPyObject)]
@@ -44,21 +40,6 @@ pub(crate) fn filled(py: Python<'_>, described: Field, density: &Source<'_>, hea
     field.glow = glow;
     field.hottest = if hottest > 0.0 { hottest } else { field.heat.as_ref().map_or(0.0, Lattice::most) };
     Ok(field)
-}
-
-/// A described field whose numbers a graph gives.
-pub(crate) fn baked(
-    described: Field,
-    (graph, textures): (&Graph, &[Texture]),
-    (density, heat): (Input, Option<Input>),
-    domain: [[f64; 3]; 2],
-    voxels: [usize; 3],
-) -> Result<Field, Error> {
-    let Field { origin, to_world, glow, hottest, .. } = described;
-    let recipe = Recipe { origin: &origin, graph, textures, density, heat, domain, to_world: &to_world, voxels };
-    let found = bake(&recipe, &AtomicBool::new(false))?;
-    let hottest = if hottest > 0.0 { hottest } else { found.hottest };
-    Ok(Field { glow, hottest, ..found })
 }
 
 fn lattice(py: Python<'_>, array: &Bound<'_, PyAny>, name: &str) -> PyResult<Lattice> {

@@ -374,32 +374,6 @@ impl Scene {
         description::put(&mut self.scene.fields, "field", field, index)
     }
 
-    /// Adds a field described as in `to_dict` whose numbers a graph of nodes gives, or replaces field `index`; gives its number.
-    ///
-    /// `density` and `heat` are inputs as closures have them; their first component counts. They are computed at the middles of `voxels` (nx, ny, nz)
-    /// of a box from `low` to `high` in a space that the description's `to_world` leads out of; images are the scene's.
-    #[pyo3(signature = (description, index = None, *, graph, density, heat = None, low, high, voxels))]
-    #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
-    fn bake_field(
-        &mut self,
-        py: Python<'_>,
-        description: &Bound<'_, PyDict>,
-        index: Option<u32>,
-        graph: &Bound<'_, PyDict>,
-        density: &Bound<'_, PyAny>,
-        heat: Option<&Bound<'_, PyAny>>,
-        low: [f64; 3],
-        high: [f64; 3],
-        voxels: [usize; 3],
-    ) -> PyResult<u32> {
-        let described = description::read(description, "field")?;
-        let read = |input: &Bound<'_, PyAny>| description::read(input, "input");
-        let (graph, density, heat) = (description::read(graph, "graph")?, read(density)?, heat.map(read).transpose()?);
-        let textures = &self.scene.textures;
-        let field = py.detach(|| field::baked(described, (&graph, textures), (density, heat), [low, high], voxels)).map_err(exception)?;
-        description::put(&mut self.scene.fields, "field", field, index)
-    }
-
     /// Adds the box about a field as a mesh, or replaces mesh `index`; gives its number, and the map that places it, a 4×4 matrix for column vectors.
     #[pyo3(signature = (field, index = None))]
     fn put_field_box(&mut self, field: u32, index: Option<u32>) -> PyResult<(u32, [[f64; 4]; 4])> {

@@ -101,6 +101,15 @@ impl Lattice {
         Self { values: mapped(&self.values), block_values: mapped(&self.block_values), ..self.clone() }
     }
 
+    /// Whether both hold the very same arrays, in the same box.
+    pub fn holds_arrays_of(&self, other: &Self) -> bool {
+        (self.domain, self.extended) == (other.domain, other.extended)
+            && Arc::ptr_eq(&self.bricks, &other.bricks)
+            && Arc::ptr_eq(&self.values, &other.values)
+            && Arc::ptr_eq(&self.blocks, &other.blocks)
+            && Arc::ptr_eq(&self.block_values, &other.block_values)
+    }
+
     /// The greatest value, 0 where there is none above.
     pub fn most(&self) -> f32 {
         self.values.iter().chain(&*self.block_values).copied().fold(0.0, f32::max)
@@ -145,6 +154,15 @@ impl Field {
         let hottest = heat.as_ref().map_or(0.0, Lattice::most);
         let density = Lattice::of_grid(&density, None)?;
         Ok(Self { origin, to_world: to_world.after(&inner), density, heat, glow: Vec::new(), hottest })
+    }
+
+    /// Whether both are the same but for their names and where they lie.
+    pub fn holds_arrays_of(&self, other: &Self) -> bool {
+        let heats_are_one = match (&self.heat, &other.heat) {
+            (Some(a), Some(b)) => a.holds_arrays_of(b),
+            (a, b) => a.is_none() && b.is_none(),
+        };
+        heats_are_one && self.density.holds_arrays_of(&other.density) && (&self.glow, self.hottest) == (&other.glow, other.hottest)
     }
 
     /// The box about all of it, lattice coordinates.

@@ -35,7 +35,6 @@ pub use stage::find::corners::{Corner, CornerRoom, CornerTables};
 pub use stage::find::segments::{Segment, Segments};
 pub use stage::find::sort::order_by_material;
 pub use stage::light::textured_emission::{EmissionPoint, emitted};
-pub use stage::medium::places::emission_at;
 pub use stage::shade::forward::{Arriving, Picture, Splat, Wanted};
 pub use stage::start::emit::Emission;
 pub use stage::start::generate::{TileArea, generate};

@@ -75,6 +75,16 @@ def test_meters_see_a_lamp_in_clear_glass(run, tmp_path):
     assert 0.96 / 1.04 * 0.98 < clothed["value"] / bare["value"] < 1.03
 
 
+def test_meters_far_off_a_small_shell_see_its_lamp(run, tmp_path):
+    shell = (("a", 0.05, "rightHanded"), ("b", 0.047, "leftHanded"))
+    done = run("measure", stage(tmp_path, *shell, radius=0.005), "--at", "0,0,-1.9999", "--normal", "0,0,1", "--spp", 64, "--json")
+    found = json.loads(done.stdout)["meters"][0]
+    bare = NITS * math.pi * 0.005**2 / 4
+    assert abs(found["value"] - bare) < 4.0 * found["standard_error"] + 0.03 * bare, found
+    # Its own paths would meet the lamp once in tens of thousands.
+    assert found["standard_error"] < 0.1 * bare, found
+
+
 SHELL = (("a", 0.3, "rightHanded"), ("b", 0.28, "leftHanded"))
 
 

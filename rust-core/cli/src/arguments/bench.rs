@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 #[derive(Args, Debug)]
 pub(crate) struct BenchOptions {
-    /// Only these stages, separated by commas: generation, traversal, triangle, texture, bsdf, light, function, tone, render.
+    /// Only these stages, separated by commas: generation, traversal, triangle, texture, graph, bsdf, light, light-paths, media, function, tone, render.
     #[arg(long, value_name = "STAGES", value_delimiter = ',', value_parser = stage)]
     pub(crate) stage: Vec<Stage>,
     /// Seconds for each row of the table.

@@ -1,5 +1,6 @@
 //! A scene laid out for rendering, and what it leaves for the next compilation.
 
+use super::fields::KeptFields;
 use super::{
     bounds::Bounds, casters::Casters, dice::KeptDiced, displace::KeptDisplaced, kept::KeptImages, lights::KeptLights,
     measured::CompiledMeasured,
@@ -77,6 +78,7 @@ pub(super) struct Kept {
     pub(super) images: KeptImages,
     pub(super) lights: KeptLights,
     pub(super) measured: CompiledMeasured,
+    pub(super) fields: KeptFields,
 }
 
 impl CompiledScene {

@@ -14,8 +14,29 @@ const MOST_BRICKS: usize = 1 << 26;
 /// More bricks that vary have no place in a table: 7 GB.
 const MOST_FILLED: usize = 2_800_000;
 
+/// Fields as they were laid out.
+#[derive(Clone, Debug, Default)]
+pub(super) struct KeptFields {
+    fields: Vec<Field>,
+    usable: Vec<bool>,
+    table: FieldTable,
+}
+
+impl KeptFields {
+    /// What is kept of a scene whose fields are laid out.
+    pub(super) fn of(scene: &Scene, usable: Vec<bool>, table: &FieldTable) -> Self {
+        Self { fields: scene.fields.clone(), usable, table: table.clone() }
+    }
+
+    /// Whether a scene's fields are these, and can be used as they could.
+    fn is_of(&self, scene: &Scene, usable: &[bool]) -> bool {
+        let both = || self.fields.iter().zip(&scene.fields);
+        self.usable == usable && self.fields.len() == scene.fields.len() && both().all(|(old, new)| old.holds_arrays_of(new))
+    }
+}
+
 /// Fields laid out, row 1 on, and which can be used; the others are told and stay empty.
-pub(super) fn compile(scene: &Scene, diagnostics: &mut Vec<Diagnostic>) -> (FieldTable, Vec<bool>) {
+pub(super) fn compile(scene: &Scene, before: &KeptFields, diagnostics: &mut Vec<Diagnostic>) -> (FieldTable, Vec<bool>) {
     let mut filled = 0;
     let mut usable = |field: &Field| match problem(field, &mut filled) {
         Some(problem) => {
@@ -25,6 +46,9 @@ pub(super) fn compile(scene: &Scene, diagnostics: &mut Vec<Diagnostic>) -> (Fiel
         None => true,
     };
     let kept: Vec<bool> = scene.fields.iter().map(&mut usable).collect();
+    if before.is_of(scene, &kept) {
+        return (before.table.clone(), kept);
+    }
     let laid: Vec<Option<Laid<'_>>> = scene.fields.iter().zip(&kept).map(|(field, kept)| kept.then(|| Laid::new(field))).collect();
     let layouts: Vec<Option<FieldLayout<'_>>> = laid.iter().map(|laid| laid.as_ref().map(Laid::layout)).collect();
     (FieldTable::new(&layouts), kept)

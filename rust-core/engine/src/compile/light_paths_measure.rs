@@ -49,8 +49,8 @@ fn sends_on(scene: &CompiledScene) -> bool {
     !scene.casters.targets.is_empty() || scene.tables.materials.surfaces.iter().any(|material| polished(&material.surface))
 }
 
-/// By light, whether light paths bring its light to meters; none where nothing has to be brought.
-pub(crate) fn for_meters(scene: &CompiledScene, settings: &Settings, cancel: &AtomicBool) -> Option<Vec<bool>> {
+/// By light, whether light paths bring its light to meters that lie within `reach` metres of the scene's middle; none where nothing has to be brought.
+pub(crate) fn for_meters(scene: &CompiledScene, settings: &Settings, reach: f64, cancel: &AtomicBool) -> Option<Vec<bool>> {
     if !sends_on(scene) || settings.integrator != Integrator::Path {
         return None;
     }
@@ -62,7 +62,7 @@ pub(crate) fn for_meters(scene: &CompiledScene, settings: &Settings, cancel: &At
     let records = scene.kept.lights.records();
     let either = |noise: &dyn Fn(&[Brought]) -> f64| noise(&brought) >= LEAST_NOISE || noise(&all) >= LEAST_NOISE;
     let is_triangle = |(record, _): &(&LightRecord, &Brought)| record.kind == LightKind::Triangle;
-    let triangles = either(&|brought| noise(scene, records.iter().zip(brought).filter(is_triangle)));
+    let triangles = either(&|brought| noise(reach, records.iter().zip(brought).filter(is_triangle)));
     let starts = (0..).zip(records).map(|(light, record)| {
         if scene.tables.lights.has_falloff(light) {
             return false;
@@ -71,7 +71,7 @@ pub(crate) fn for_meters(scene: &CompiledScene, settings: &Settings, cancel: &At
             LightKind::Dome => is_peaked(scene, record),
             LightKind::Triangle => triangles,
             _ if is_sizeless(record) && record.opening.is_none() => true,
-            _ => either(&|brought| noise(scene, once((record, &brought[light as usize])))),
+            _ => either(&|brought| noise(reach, once((record, &brought[light as usize])))),
         }
     });
     Some(starts.collect()).filter(|starts: &Vec<bool>| starts.contains(&true))
@@ -82,10 +82,10 @@ const THROUGH_A_PANE: u32 = 2;
 
 /// Whether paths with these settings miss light that mirrors and clear glass send on, while none of light is followed: by other integrators than path
 /// tracing, without caustics, or where paths end before they are through.
-pub(crate) fn is_left_out(scene: &CompiledScene, settings: &Settings, cancel: &AtomicBool) -> bool {
+pub(crate) fn is_left_out(scene: &CompiledScene, settings: &Settings, reach: f64, cancel: &AtomicBool) -> bool {
     let max_bounces = settings.max_bounces.max(THROUGH_A_PANE);
     let whole = Settings { integrator: Integrator::Path, caustics: Caustics::Auto, max_bounces, ..settings.clone() };
-    settings.integrator != Integrator::Light && for_meters(scene, &whole, cancel).is_some()
+    settings.integrator != Integrator::Light && for_meters(scene, &whole, reach, cancel).is_some()
 }
 
 /// Whether meters' paths end before light can have come through glass.
@@ -103,14 +103,13 @@ fn with_escaped(brought: &[Brought], escaped: &Brought) -> Vec<Brought> {
     brought.iter().map(with_part).collect()
 }
 
-/// The variance for lights together, see [`LEAST_NOISE`].
-fn noise<'a>(scene: &CompiledScene, lights: impl Iterator<Item = (&'a LightRecord, &'a Brought)>) -> f64 {
+/// The variance for lights together, see [`LEAST_NOISE`], of meters that lie within a radius in metres.
+fn noise<'a>(radius: f64, lights: impl Iterator<Item = (&'a LightRecord, &'a Brought)>) -> f64 {
     let (mut total, mut sent_on) = (0.0, 0.0);
     for (record, Brought { straight, by_casters }) in lights {
         total += straight + by_casters;
         sent_on += radiance(record, straight + by_casters) * by_casters;
     }
-    let radius = scene.bounds.radius();
     if total > 0.0 { 4.0 * PI * PI * radius * radius * sent_on / (total * total) } else { 0.0 }
 }
 

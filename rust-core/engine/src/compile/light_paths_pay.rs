@@ -109,7 +109,10 @@ pub(super) fn decide(compiled: &mut CompiledScene, scene: &Scene, of_light: &[u3
         casters::report_blockers(scene, &compiled.tables.links, &mut compiled.diagnostics);
     }
     let sought = scene.settings.caustics == Caustics::Off || !are_possible(compiled, &scene.settings);
-    if sought && scene.settings.aovs.contains(&Aov::Illuminance) && light_paths_measure::is_left_out(compiled, &scene.settings, cancel) {
+    if sought
+        && scene.settings.aovs.contains(&Aov::Illuminance)
+        && light_paths_measure::is_left_out(compiled, &scene.settings, compiled.bounds.radius(), cancel)
+    {
         compiled.diagnostics.push(Diagnostic::warning(&Origin::default(), ILLUMINANCE_IN_PART));
     }
     Ok(())
@@ -122,7 +125,7 @@ const ILLUMINANCE_IN_PART: &str = "the illuminance pass leaves out light that mi
 /// Whether illuminances are wanted of light that camera paths would seldom or never find, be it a small part of all.
 fn is_measured(compiled: &CompiledScene, scene: &Scene, cancel: &AtomicBool) -> bool {
     let wanted = scene.settings.aovs.contains(&Aov::Illuminance);
-    let rare = || light_paths_measure::for_meters(compiled, &scene.settings, cancel);
+    let rare = || light_paths_measure::for_meters(compiled, &scene.settings, compiled.bounds.radius(), cancel);
     wanted && rare().is_some_and(|rare| rare.iter().zip(starts(compiled)).any(|(rare, starts)| *rare && starts))
 }
 

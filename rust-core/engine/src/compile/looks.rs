@@ -3,6 +3,7 @@
 use super::{
     compiled::Kept,
     displace::Laid,
+    fields::KeptFields,
     materials,
     measured::{self, CompiledMeasured},
     primvars,
@@ -23,6 +24,8 @@ pub(super) struct Looks {
     /// Names of the primvars that programs read.
     pub(super) names: Vec<String>,
     pub(super) materials: MaterialTable,
+    /// Fields, for the next compilation.
+    pub(super) fields: KeptFields,
 }
 
 impl Looks {
@@ -30,8 +33,8 @@ impl Looks {
         let textures = textures::compile(scene, &kept.images, cancel, diagnostics)?;
         let measured = measured::compile(scene, &kept.measured, diagnostics);
         let names = primvars::used_names(scene, &measured);
-        let materials = materials::compile(scene, &textures, &measured, &names, diagnostics)?;
-        Ok(Self { textures, measured, names, materials })
+        let (materials, fields) = materials::compile(scene, &textures, &measured, &names, &kept.fields, diagnostics)?;
+        Ok(Self { textures, measured, names, materials, fields })
     }
 
     /// What displacement reads.

@@ -5,7 +5,12 @@ pub(super) mod media;
 mod parameters;
 mod program;
 
-use super::{fields, measured::CompiledMeasured, standard_passes, textures::CompiledTextures};
+use super::{
+    fields::{self, KeptFields},
+    measured::CompiledMeasured,
+    standard_passes,
+    textures::CompiledTextures,
+};
 use crate::{
     bsdf::{Bump, Closure as Single, Distribution, Fuzz, Metal, SubsurfaceMethod, Surface, Switches, parameter},
     error::{Diagnostic, Error, Result},
@@ -27,13 +32,14 @@ pub(super) fn compile(
     textures: &CompiledTextures,
     measured: &CompiledMeasured,
     names: &[String],
+    kept: &KeptFields,
     diagnostics: &mut Vec<Diagnostic>,
-) -> Result<MaterialTable> {
+) -> Result<(MaterialTable, KeptFields)> {
     let mut default = Material::diffuse(Origin::new("default material"), DEFAULT_REFLECTANCE);
     standard_passes::add_outputs(scene, &mut default);
     let mut table = MaterialTable::default();
     let usable;
-    (table.media.fields, usable) = fields::compile(scene, diagnostics);
+    (table.media.fields, usable) = fields::compile(scene, kept, diagnostics);
     for material in scene.materials.iter().chain([&default]) {
         let first = table.surfaces.len() as u32;
         if let Some(node) = nodes_of(material).find(|node| usize::from(node.0) >= material.graph.nodes.len()) {
@@ -67,7 +73,8 @@ pub(super) fn compile(
         table.media.everywhere = row;
     }
     table.any_exit = table.surfaces.iter().any(|surface| surface.exit.is_some());
-    Ok(table)
+    let kept = KeptFields::of(scene, usable, &table.media.fields);
+    Ok((table, kept))
 }
 
 /// The nodes that closures and shader outputs read.

@@ -2,7 +2,6 @@
 //!
 //! Meshes whose arrays did not change keep their trees; moving instances rebuilds the top level alone.
 
-pub mod baked_field;
 mod bodies;
 mod bounds;
 mod cancel;
@@ -132,6 +131,7 @@ fn laid_out(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicBool
             images: looks.textures.kept,
             lights: kept_lights,
             measured: looks.measured,
+            fields: looks.fields,
         },
     };
     light_paths_pay::decide(&mut compiled, &complete, &of_light, cancel)?;
@@ -164,7 +164,7 @@ fn statistics(scene: &Scene, looks: &Looks, shapes: &Shapes, lights: &CompiledLi
         lights: lights.table.len() as u64,
         segments: shapes.segments,
         points: scene.points.iter().map(|points| points.points.len() as u64).sum(),
-        geometry_bytes: (shapes.tree_bytes() + shapes.geometry.table.memory()) as u64,
+        geometry_bytes: (shapes.tree_bytes() + shapes.geometry.table.memory() + looks.materials.media.fields.memory()) as u64,
         texture_bytes: looks.textures.table.bytes() as u64,
         textures_s: looks.textures.seconds,
         build_s: shapes.built.as_secs_f64(),

@@ -7,7 +7,7 @@ use super::{
     missed::with_missed,
     reading::Reading,
     sensing::{ROUNDS, Sensing, unlimited},
-    vector::{across, add, cross, scaled, unit},
+    vector::{across, add, cross, length, scaled, subtract, unit},
     watch::Watch,
 };
 use crate::{
@@ -127,10 +127,13 @@ pub(super) fn sense(
     sensors.iter_mut().zip(surroundings_at(&scene.tables, &places)).for_each(|(sensor, found)| sensor.surroundings = found);
     let settings = unlimited(settings);
     let sensing = Sensing { scene, sensors: &sensors, settings: &settings, execution };
-    let starts = light_paths_measure::for_meters(scene, &settings, watch.cancel);
+    // Meters may stand far off the scene: from there its lamps are small.
+    let middle = scene.bounds.centre();
+    let reach = places.iter().map(|place| length(subtract(*place, middle))).filter(|reach| reach.is_finite()).fold(radius, f64::max);
+    let starts = light_paths_measure::for_meters(scene, &settings, reach, watch.cancel);
     let light_paths = starts.and_then(|starts| LightPaths::bringing(scene, &starts));
     let rough = light_paths_measure::is_behind_rough_glass(scene, &settings);
-    let in_part = !light_paths_measure::are_followed(&settings) && light_paths_measure::is_left_out(scene, &settings, watch.cancel);
+    let in_part = !light_paths_measure::are_followed(&settings) && light_paths_measure::is_left_out(scene, &settings, reach, watch.cancel);
     if light_paths.is_none() && !rough {
         return Ok(Sensed { readings: sensing.readings(watch.progress)?, discs: None, in_part, missed: 0 });
     }

@@ -736,18 +736,6 @@ class Scene:
         density: Numbers | tuple[str | PathLike[str], str],
         heat: Numbers | tuple[str | PathLike[str], str] | None = None,
     ) -> int: ...
-    def bake_field(
-        self,
-        description: Mapping[str, Any],
-        index: int | None = None,
-        *,
-        graph: Mapping[str, Any],
-        density: Mapping[str, Any],
-        heat: Mapping[str, Any] | None = None,
-        low: tuple[float, float, float],
-        high: tuple[float, float, float],
-        voxels: tuple[int, int, int],
-    ) -> int: ...
     def put_field_box(self, field: int, index: int | None = None) -> tuple[int, list[list[float]]]: ...
     def put_atmosphere(self, description: Mapping[str, Any]) -> None: ...
     def truncate(self, kind: str, n: int) -> None: ...

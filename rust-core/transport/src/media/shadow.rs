@@ -89,6 +89,9 @@ impl OpticalDepth {
         carried: &mut SpectrumColumns,
     ) {
         self.stretches.retain(|stretch| blocked[stretch.ray as usize] == 0);
+        // Rays of like lengths end together.
+        let length = |stretch: &Stretch| stretch.ends[1] - stretch.ends[0];
+        self.stretches.sort_unstable_by(|a, b| length(a).total_cmp(&length(b)));
         let Self { stretches, lanes: (media, left), .. } = self;
         for some in stretches.chunks(L::COUNT) {
             let (mut ray, mut ends) = ([0; PADDING], [[0.0; PADDING]; 2]);

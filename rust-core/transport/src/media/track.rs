@@ -13,6 +13,8 @@ use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
 const MOST_STEPS: u32 = 1 << 16;
 /// Weights below this are as good as none.
 const LEAST_WEIGHT: f32 = 1e-6;
+/// Where nothing scatters, half of the rays of a weight below this end at a collision, and the others weigh twice as much.
+const SMALL_WEIGHT: f32 = 0.1;
 
 /// A medium that varies, along a register of rays.
 #[derive(Clone, Copy, Debug)]
@@ -192,6 +194,11 @@ impl<'a, L: Lanes> Track<'a, L> {
                 let drawn = majorant * scatters.select(probability, 1.0 - probability);
                 let factor = scatters.select(scattering, null) * drawn.max(f32::MIN_POSITIVE).recip();
                 weight = collides.select(weight * factor, weight);
+                if scatter.is_none() {
+                    let small = collides & weight.abs().max_component().lt(SMALL_WEIGHT);
+                    let doubled = weight * l.f(2.0).keep_if(random.next().lt(0.5));
+                    weight = small.select(doubled, weight);
+                }
                 scattered |= scatters;
             }
             active = active.and_not(scattered) & t.lt(to) & weight.abs().max_component().gt(LEAST_WEIGHT);

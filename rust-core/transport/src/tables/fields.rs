@@ -4,6 +4,7 @@
 //! each other along z share a word: four gathers are a trilinear lookup.
 
 use gonio_simd::{Column, PADDING};
+use std::sync::Arc;
 
 /// Cells along a brick's edge, as a power of two.
 pub(crate) const LOG2_BRICK: u32 = 3;
@@ -43,7 +44,7 @@ pub struct FieldLayout<'a> {
     pub hottest: f32,
 }
 
-/// All of a scene. Row 0 is an empty field.
+/// All of a scene, whose clones share their bricks. Row 0 is an empty field.
 #[derive(Clone, Debug)]
 pub struct FieldTable {
     /// By axis, from rebased world space to the lattice: three factors and what is added.
@@ -55,11 +56,11 @@ pub struct FieldTable {
     /// Bricks along y and z of the coarse ones, the first of those, and the number of the field's glow.
     pub(crate) coarse: Column<u32>,
     /// By brick: least value, span of its codes, greatest value, place of its words over [`WORDS`], as bits.
-    pub(crate) bounds: Column,
+    pub(crate) bounds: Arc<Column>,
     /// By coarse brick, 1 where there is any density or heat.
-    pub(crate) filled: Column,
+    pub(crate) filled: Arc<Column>,
     /// Pairs of codes.
-    pub(crate) words: Column<u32>,
+    pub(crate) words: Arc<Column<u32>>,
     /// Factors on emission, R, G, B, and a blank.
     pub(crate) glow: Column,
 }
@@ -188,9 +189,9 @@ impl Layout {
             domain: self.domain.map(|rows| column(&rows)),
             bricks: column(&self.bricks),
             coarse: column(&self.coarse),
-            bounds: column(&self.bounds),
-            filled: column(&self.filled),
-            words: column(&self.words),
+            bounds: column(&self.bounds).into(),
+            filled: column(&self.filled).into(),
+            words: column(&self.words).into(),
             glow: column(&self.glow),
         }
     }

@@ -7,7 +7,6 @@
 mod context;
 mod flight;
 mod light;
-pub(crate) mod places;
 mod scatter;
 mod shine;
 mod way;
