@@ -28,10 +28,13 @@ const SMOOTH: f32 = 5e-3;
 /// Whether light may come by glass that is rough, which is no business of light paths else.
 pub(crate) fn is_behind_rough_glass(scene: &CompiledScene, settings: &Settings) -> bool {
     let lights = &scene.tables.lights;
+    settings.integrator == Integrator::Path && has_rough_glass(scene) && !(0..lights.len() as u32).any(|light| lights.has_falloff(light))
+}
+
+/// Whether there is any.
+pub(crate) fn has_rough_glass(scene: &CompiledScene) -> bool {
     let rough = |surface: &Surface| surface.lobes.transmission && !surface.lobes.smooth;
-    settings.integrator == Integrator::Path
-        && scene.tables.materials.surfaces.iter().any(|material| rough(&material.surface))
-        && !(0..lights.len() as u32).any(|light| lights.has_falloff(light))
+    scene.tables.materials.surfaces.iter().any(|material| rough(&material.surface))
 }
 
 /// How light paths of all lights start.

@@ -53,8 +53,10 @@ impl Disc {
             (length(subtract(wide(*centre), position)) - radius).max(WITHIN * radius)
         };
         let most = SHARE * scene.casters.targets.iter().map(way).fold(f64::INFINITY, f64::min);
-        // What polished floors and walls send on comes from all over the scene.
-        let most = most.min(SHARE * scene.bounds.radius()).min(reach);
+        // What polished floors and walls send on comes from all over the scene, which may be far off.
+        let (middle, all) = scene.bounds.sphere(scene.tables.origin);
+        let outside = length(subtract(wide(middle), position)) - all;
+        let most = most.min(SHARE * all.max(outside)).min(reach);
         let radius = most.min(FREE * disc.free(scene, most));
         Self { radius: if radius > LEAST * error { radius } else { 0.0 }, ..disc }
     }

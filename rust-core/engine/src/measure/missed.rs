@@ -14,8 +14,8 @@ use crate::{
     scene::{Integrator, Settings},
 };
 
-/// Standard errors, and part of a reading, by which light paths must find more.
-const ERRORS: f64 = 4.0;
+/// Standard errors, and part of a reading, by which light paths must find more. Paths that have not met a lamp yet know little of their own error.
+const ERRORS: f64 = 2.5;
 const PART: f64 = 0.02;
 
 /// Readings with what was missed, and at how many meters that was.

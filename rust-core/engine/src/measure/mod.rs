@@ -155,7 +155,7 @@ fn read(
 }
 
 /// Said where settings leave out what meters exist to find.
-const IN_PART: &str = "the figures leave out light that mirrors and clear glass send on: it comes by light paths, which these settings do without; they run \
+const IN_PART: &str = "the figures leave out light that mirrors and glass send on: it comes by light paths, which these settings do without; they run \
     with the integrator path and two bounces at least";
 
 /// Says over what the light is a mean that light paths bring.

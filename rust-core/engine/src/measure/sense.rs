@@ -133,7 +133,9 @@ pub(super) fn sense(
     let starts = light_paths_measure::for_meters(scene, &settings, reach, watch.cancel);
     let light_paths = starts.and_then(|starts| LightPaths::bringing(scene, &starts));
     let rough = light_paths_measure::is_behind_rough_glass(scene, &settings);
-    let in_part = !light_paths_measure::are_followed(&settings) && light_paths_measure::is_left_out(scene, &settings, reach, watch.cancel);
+    let left_out =
+        || light_paths_measure::has_rough_glass(scene) || light_paths_measure::is_left_out(scene, &settings, reach, watch.cancel);
+    let in_part = !light_paths_measure::are_followed(&settings) && left_out();
     if light_paths.is_none() && !rough {
         return Ok(Sensed { readings: sensing.readings(watch.progress)?, discs: None, in_part, missed: 0 });
     }
