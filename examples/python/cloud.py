@@ -50,7 +50,7 @@ def main() -> None:
     scene.add_daylight(gonio.daylight(47.0, 8.0, "2026-06-21T10:30+02:00", ground=0.1), up="Y")
     scene.set(width=960, height=600, samples=64, max_bounces=64, max_volume_bounces=64)
     scene.add_camera(gonio.look_at((0.0, 60.0, 1150.0), (0.0, 330.0, 0.0)), fov=38)
-    finished(scene, sys.argv[1] if len(sys.argv) > 1 else "cloud.png", exposure=0.0)
+    finished(scene, sys.argv[1] if len(sys.argv) > 1 else "cloud.png", exposure=0.7)
 
 
 if __name__ == "__main__":
