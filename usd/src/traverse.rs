@@ -246,7 +246,8 @@ impl<'w, 'a, 'py> Walker<'w, 'a, 'py> {
             PrimKind::Points => self.points(prim, branch, model),
             PrimKind::Volume => {
                 if let Some(volume) = volume::read(self.context, &self.xforms, prim) {
-                    push(model, prim, branch, Kind::Volume(Rc::new(volume)));
+                    let primvars = primvar::handed_down(self.context, prim, &branch.primvars);
+                    push(model, prim, &Branch { primvars, ..branch.clone() }, Kind::Volume(Rc::new(volume)));
                 }
             }
             PrimKind::Instancer => self.point_instancer(prim, branch, model)?,

@@ -38,8 +38,10 @@ pub(crate) fn fill(
     shading: &VolumeShading,
     primvars: Primvars<'_>,
 ) -> Vec<Filling> {
-    let mut filler = Filler { context, origin, volume, shading, primvars };
+    let mut filler = Filler { context, origin, volume, shading, primvars, unproportional: BTreeSet::new() };
+    filler.tell_missing();
     let Some([absorption, scattering]) = filler.coefficients() else { return Vec::new() };
+    filler.tell_curves();
     let emission = filler.emission();
     let mut parts = vec![scattering];
     match &mut parts[0] {
@@ -118,6 +120,8 @@ struct Filler<'f, 'a, 'py> {
     volume: &'f Volume,
     shading: &'f VolumeShading,
     primvars: Primvars<'f>,
+    /// Names of fields that coefficients follow by a curve.
+    unproportional: BTreeSet<String>,
 }
 
 impl Filler<'_, '_, '_> {
@@ -144,9 +148,7 @@ impl Filler<'_, '_, '_> {
                 let most = most(&found.grid.lattice);
                 let value = at(self, most);
                 if value.is_some_and(|value| !self.is_proportional(input, value, most)) {
-                    let message =
-                        format!("its coefficients do not follow the field '{}' in proportion; those of its greatest value do", field.name);
-                    self.context.once("volume curve", &self.shading.path, self.origin, || message);
+                    self.unproportional.insert(field.name.clone());
                 }
                 (value.map(|value| value.map(|x| x / most)), Some(found))
             }
@@ -162,6 +164,14 @@ impl Filler<'_, '_, '_> {
                 self.context.unsupported("a volume that varies by more than its fields", self.origin);
                 None
             }
+        }
+    }
+
+    /// Says which fields coefficients follow by a curve.
+    fn tell_curves(&mut self) {
+        for name in &self.unproportional {
+            let message = || format!("its coefficients do not follow the field '{name}' in proportion; those of its greatest value do");
+            self.context.once("volume curve", &format!("{} {name}", self.shading.path), self.origin, message);
         }
     }
 
@@ -203,26 +213,19 @@ impl Filler<'_, '_, '_> {
         value
     }
 
-    /// The fields of the volume that an input follows. What is neither a field nor a primvar is told: its default counts.
-    fn fields_of(&mut self, input: Input) -> Vec<Field> {
-        let names: BTreeSet<&str> = self.shading.names(input);
-        let mut fields = Vec::new();
-        for name in names {
-            match self.volume.field(name) {
-                Some(field) => fields.push(field.clone()),
-                None if (self.primvars)(name).is_some() => {}
-                None => {
-                    let message = || {
-                        format!(
-                            "the material <{}> asks for '{name}', which is no field of the volume; its default counts",
-                            self.shading.path
-                        )
-                    };
-                    self.context.once("no such field", &format!("{} {name}", self.shading.path), self.origin, message);
-                }
-            }
+    /// The fields of the volume that an input follows.
+    fn fields_of(&self, input: Input) -> Vec<Field> {
+        self.shading.names(input).into_iter().filter_map(|name| self.volume.field(name).cloned()).collect()
+    }
+
+    /// Says what the material asks for that is neither a field nor a primvar: its default counts.
+    fn tell_missing(&mut self) {
+        let VolumeShading { path, absorption, scattering, emission, .. } = self.shading;
+        let names: BTreeSet<&str> = [absorption, scattering, emission].into_iter().flat_map(|input| self.shading.names(*input)).collect();
+        for name in names.into_iter().filter(|name| self.volume.field(name).is_none() && (self.primvars)(name).is_none()) {
+            let message = || format!("the material <{path}> asks for '{name}', which is no field of the volume; its default counts");
+            self.context.once("no such field", &format!("{path} {name}"), self.origin, message);
         }
-        fields
     }
 
     /// An input where its field has a value.
