@@ -100,7 +100,7 @@ def test_grids_are_placed_by_field_volume_and_unit(tmp_path):
     found = medium(scene)
     assert found["absorption"] == pytest.approx([10, 20, 30]) and found["scattering"] == pytest.approx([40, 50, 60])
     assert found["anisotropy"] == pytest.approx(0.3) and found["field"] == 0
-    assert scene["instances"][0]["origin"] == "/Cloud"
+    assert scene["instances"][0]["origin"]["name"] == "/Cloud"
     assert np.array(scene["instances"][0]["transforms"][0]["columns"]) == pytest.approx(columns(described))
 
 
@@ -116,7 +116,8 @@ def test_a_field_elsewhere_has_its_own_transformation_alone(tmp_path):
     }
 }
 """
-    here = 'def Volume "Cloud" (prepend apiSchemas = ["MaterialBindingAPI"]) {\n rel field:density = </Files/density>\n rel material:binding = </M>\n}\n'
+    here = 'def Volume "Cloud" (prepend apiSchemas = ["MaterialBindingAPI"])'
+    here += "{\n rel field:density = </Files/density>\n rel material:binding = </M>\n}\n"
     scene, told = load(tmp_path, SMOKE + elsewhere + here)
     assert columns(scene["fields"][0])[3] == pytest.approx([0.1, 0.7, 0.3]) and not told
 
@@ -156,7 +157,7 @@ def test_density_and_heat_share_a_box(tmp_path):
     vdb_file.write(tmp_path / "fire.vdb", ("heat", HEAT), voxel=0.25)
     apart = volume(fields="density").replace(
         "rel field:density", 'rel field:heat = <fire>\n    rel field:density'
-    ).rstrip("}\n") + '}\n    def OpenVDBAsset "fire" { asset filePath = @fire.vdb@\n token fieldName = "heat" }\n}\n'
+    ).rstrip("}\n") + '}\n    def OpenVDBAsset "fire" { asset filePath = @fire.vdb@\n token fieldName = "heat"\n }\n}\n'
     scene, told = load(tmp_path, both + apart)
     assert [medium(scene, n)["emission"] != [0.0] * 3 for n in (0, 1)] == [False, True] and not told, told
     assert columns(scene["fields"][1])[0, 0] == pytest.approx(0.025)
@@ -208,11 +209,11 @@ def test_instances_share_their_numbers(tmp_path):
     scene, told = load(tmp_path, SMOKE + instancer + volume() + "}\n")
     assert [columns(described)[3, 0] for described in scene["fields"]] == pytest.approx([0.1, 1.1, 2.1]) and not told
     assert [medium(scene, number)["field"] for number in range(3)] == [0, 1, 2]
-    native = f'class "Proto" {{\n{volume()}}}\ndef "A" (instanceable = true inherits = </Proto>) {{}}\n'
-    native += 'def Xform "B" (instanceable = true inherits = </Proto>) { double3 xformOp:translate = (0, 1, 0)\n'
-    native += 'uniform token[] xformOpOrder = ["xformOp:translate"] }\n'
+    native = f'class "Proto" {{\n{volume()}}}\ndef "A" (\ninstanceable = true\ninherits = </Proto>\n) {{}}\n'
+    native += 'def Xform "B" (\ninstanceable = true\ninherits = </Proto>\n) { double3 xformOp:translate = (0, 1, 0)\n'
+    native += 'uniform token[] xformOpOrder = ["xformOp:translate"]\n }\n'
     scene, told = load(tmp_path, SMOKE + native)
-    assert sorted(instances["origin"] for instances in scene["instances"]) == ["/A/Cloud", "/B/Cloud"] and not told, told
+    assert sorted(instances["origin"]["name"] for instances in scene["instances"]) == ["/A/Cloud", "/B/Cloud"] and not told, told
     assert medium(scene)["absorption"] == pytest.approx([10, 20, 30])
 
 
@@ -232,10 +233,10 @@ def test_files_follow_time(tmp_path):
 
 def test_moving_volumes_stand_still_and_say_so(tmp_path):
     body = 'double3 xformOp:translate.timeSamples = { 0: (0, 0, 0), 10: (10, 0, 0) }\n    uniform token[] xformOpOrder = ["xformOp:translate"]'
-    camera = 'def Camera "C" { double shutter:open = -0.5\n double shutter:close = 0.5 }\ndef Sphere "After" {\n ' + body + "\n}\n"
+    camera = 'def Camera "C" { double shutter:open = -0.5\n double shutter:close = 0.5\n }\ndef Sphere "After" {\n ' + body + "\n}\n"
     scene, told = load(tmp_path, SMOKE + camera + volume(body=body), frame=5.0)
     assert columns(scene["fields"][0])[3, 0] == pytest.approx(0.6)
-    sets = {instances["origin"]: instances for instances in scene["instances"]}
+    sets = {instances["origin"]["name"]: instances for instances in scene["instances"]}
     assert sets["/Cloud"]["motion"] == [] and len(sets["/After"]["motion"]) == 3
     assert [message for message in told if "volume changes or moves" in message], told
 
@@ -291,14 +292,14 @@ def test_broken_files_are_told_once_and_the_rest_is_there(tmp_path, kind):
     expected = broken_file(tmp_path, kind)
     text = SMOKE + volume(fields="density") + 'def Sphere "Ball" {}\n' + volume("Other", fields="density", bound=False)
     scene, told = load(tmp_path, text, file=False)
-    assert [instances["origin"] for instances in scene["instances"]] == ["/Ball"]
+    assert [instances["origin"]["name"] for instances in scene["instances"]] == ["/Ball"]
     found = [message for message in told if expected in message]
     assert len(found) == 2 and all("cloud.vdb" in message for message in found), told
 
 
 def test_what_is_no_field_is_told(tmp_path):
-    text = 'def Volume "V" { rel field:density = </V/f>\n def Field3DAsset "f" { asset filePath = @a.f3d@ } }\ndef Volume "W" {}\n'
-    text += 'def Volume "Lost" { rel field:density = </Nowhere> }\n'
+    text = 'def Volume "V" { rel field:density = </V/f>\n def Field3DAsset "f" { asset filePath = @a.f3d@\n }\n}\ndef Volume "W" {}\n'
+    text += 'def Volume "Lost" { rel field:density = </Nowhere>\n }\n'
     scene, told = load(tmp_path, text)
     assert any("'Field3DAsset' is not supported" in message for message in told), told
     assert any("the volume has no field" in message for message in told), told
@@ -311,7 +312,7 @@ def test_what_no_field_can_do_is_told(tmp_path):
         field("D", "density"), field("H", "heat"),
     )  # fmt: skip
     scene, told = load(tmp_path, several + volume() + 'def Sphere "Ball" {}\n')
-    assert [instances["origin"] for instances in scene["instances"]] == ["/Ball"]
+    assert [instances["origin"]["name"] for instances in scene["instances"]] == ["/Ball"]
     assert any("several fields at once (density, heat)" in message for message in told), told
     curve = material(shader("S", "ND_absorption_vdf", absorption="A"), times("A", "B", "(1, 1, 1)"),
                      shader("B", "ND_power_float", in1="D", in2=("float", "2")), field("D", "density"))  # fmt: skip
@@ -321,7 +322,7 @@ def test_what_no_field_can_do_is_told(tmp_path):
     _, told = load(tmp_path, material(shader("S", "ND_absorption_vdf", absorption="A"), times("A", "D", "(1, 1, 1)"), field("D", "wool")) + volume())
     assert any("asks for 'wool', which is no field of the volume" in message for message in told), told
     # A mesh has no fields.
-    ball = 'def Sphere "Ball" (prepend apiSchemas = ["MaterialBindingAPI"]) { rel material:binding = </M> }\n'
+    ball = 'def Sphere "Ball" (prepend apiSchemas = ["MaterialBindingAPI"]) { rel material:binding = </M>\n }\n'
     _, told = load(tmp_path, SMOKE + ball)
     assert any("a volume that varies from place to place" in message for message in told), told
 
