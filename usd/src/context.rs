@@ -2,16 +2,18 @@
 
 use crate::kept::Kept;
 use crate::luminaire_file::LuminaireFile;
-use crate::material::{Library, Shaded};
+use crate::material::{Library, Shaded, VolumeShading};
 use crate::options::StageOptions;
 use crate::prim::{Attribute, Prim};
 use crate::pxr;
 use crate::roles::Roles;
+use crate::volume::GridCache;
 use crate::vt::FromValue;
 use gonio::scene::{Goniogram, MaterialId, MeasuredId, Origin, Scene, TextureId};
 use gonio::{Diagnostic, Error, Result};
 use pyo3::prelude::*;
 use std::collections::HashMap;
+use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
@@ -59,6 +61,10 @@ pub struct Context<'a, 'py> {
     pub asked_of_prims: HashMap<String, Vec<String>>,
     /// The prim that the material under way is for.
     pub shaded: Shaded<'py>,
+    /// What materials say of volumes, by the path of their prim; `None` for those that say nothing.
+    pub(crate) volume_shadings: HashMap<String, Option<Rc<VolumeShading>>>,
+    /// Grids of volumes.
+    pub(crate) grids: GridCache,
     /// Textures by a key of the material reader's choice.
     pub texture_ids: HashMap<String, TextureId>,
     /// What MaterialX documents of the stage define for themselves.
@@ -104,6 +110,8 @@ impl<'a, 'py> Context<'a, 'py> {
             material_ids: HashMap::new(),
             asked_of_prims: HashMap::new(),
             shaded: Shaded::default(),
+            volume_shadings: HashMap::new(),
+            grids: GridCache::default(),
             texture_ids: HashMap::new(),
             material_definitions: Vec::new(),
             measured_ids: HashMap::new(),

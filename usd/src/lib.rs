@@ -51,6 +51,7 @@ pub mod subset;
 pub mod tet_mesh;
 pub mod traverse;
 pub mod view;
+pub mod volume;
 pub mod vt;
 mod watch;
 pub mod xform;

@@ -3,6 +3,7 @@
 //! The world is a model, and so is each prototype of native instances and of point instancers: read once, placed often.
 
 use crate::options::Purpose;
+use crate::volume::Volume;
 use gonio::scene::{Geometry, MaterialId, MeshId, Transform};
 use std::cell::OnceCell;
 use std::rc::Rc;
@@ -62,6 +63,8 @@ pub enum Kind {
     Camera,
     /// A prim at which light is measured, with its surface if it is one.
     Measured(Option<MeshId>),
+    /// A volume with its fields.
+    Volume(Rc<Volume>),
     /// Other models.
     Group(Group),
 }

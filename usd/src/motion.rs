@@ -4,8 +4,9 @@
 
 use crate::prim::Prim;
 use gonio::Diagnostic;
-use gonio::scene::{Light, Mesh, MeshKey, Origin, PointKey, Scene, Transform};
+use gonio::scene::{Instances, Light, Mesh, MeshId, MeshKey, Origin, PointKey, Scene, Transform};
 use pyo3::prelude::*;
+use std::collections::HashSet;
 
 /// Samples over the shutter where the stage names no number: turns are even between two of them.
 const KEYS: usize = 3;
@@ -79,18 +80,24 @@ pub(crate) fn put(scene: &mut Scene, keys: &[Scene]) -> Vec<Diagnostic> {
             set_mean_strength(light, &found, &mut told);
         }
     }
+    let volumes = volumes(scene);
     for (number, set) in scene.instances.iter_mut().enumerate() {
+        let is_volume = set.geometry.mesh().is_some_and(|mesh| volumes.contains(&mesh));
         let like = |key: &Scene| {
             let other = key.instances.get(number)?;
             (other.origin.name == set.origin.name && other.transforms.len() == set.transforms.len()).then(|| other.transforms.clone())
         };
         match keys.iter().map(like).collect::<Option<Vec<Vec<Transform>>>>() {
-            Some(found) if found.iter().any(|key| *key != found[0]) => set.motion = found,
-            Some(_) => {}
+            Some(found) if found.iter().all(|key| *key == found[0]) => {}
+            _ if is_volume => told.push(Diagnostic::warning(
+                &set.origin,
+                "the volume changes or moves while the shutter is open; it is that of the frame, and is not blurred",
+            )),
+            Some(found) => set.motion = found,
             None => told.push(Diagnostic::warning(&set.origin, still)),
         }
     }
-    for (number, mesh) in scene.meshes.iter_mut().enumerate() {
+    for (number, mesh) in scene.meshes.iter_mut().enumerate().filter(|(number, _)| !volumes.contains(&MeshId(*number as u32))) {
         match keys.iter().map(|key| mesh_key(mesh, key.meshes.get(number)?)).collect::<Option<Vec<MeshKey>>>() {
             Some(found) if found.iter().any(|key| *key != found[0]) => mesh.motion = found,
             Some(_) => {}
@@ -114,6 +121,15 @@ pub(crate) fn put(scene: &mut Scene, keys: &[Scene]) -> Vec<Diagnostic> {
         points.motion = moved_points(found, &points.origin, still, &mut told);
     }
     told
+}
+
+/// The boxes of volumes, whose fields stand still.
+fn volumes(scene: &Scene) -> HashSet<MeshId> {
+    let is_volume = |set: &&Instances| {
+        let mut materials = set.materials.iter().filter_map(|material| scene.materials.get(material.index()));
+        materials.any(|material| material.medium.field.is_some())
+    };
+    scene.instances.iter().filter(is_volume).filter_map(|set| set.geometry.mesh()).collect()
 }
 
 /// Gives a light whose strength changes the mean of it over the shutter, which is right for what stands still.

@@ -3,12 +3,14 @@
 mod linking;
 mod matte_name;
 mod rebound;
+mod volumes;
 
 use crate::context::Context;
 use crate::model::{Element, Group, Inherited, Kind, Model, Shape};
 use crate::options::Purpose;
 use crate::roles::Role;
 use crate::view::shines;
+use crate::volume::Filling;
 use crate::{camera, daylight, haze, light, light_filter, material, mesh_light, meter, primvar};
 use gonio::scene::{
     Geometry, GridArea, Instances, Light, MaterialId, MeshId, Origin, Primvar, PrimvarInterpolation, Scene, Transform, Visibility,
@@ -17,6 +19,7 @@ use gonio::{Error, Result, memory::room_for};
 use linking::{Collections, LinkTable};
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
+use volumes::PlacedVolume;
 
 /// Most placed shapes of a stage.
 const MAX_PLACEMENTS: usize = 1 << 25;
@@ -88,6 +91,9 @@ pub struct Placer<'w, 'a, 'py> {
     /// Paths of prims whose kind is that of assets.
     assets: HashSet<String>,
     links: LinkTable<'py>,
+    volumes: Vec<PlacedVolume>,
+    /// What fills volumes, by the place of their materials' bindings and their primvars.
+    fillings: HashMap<String, Rc<[Filling]>>,
     /// The scene's lights that have links, by their numbers.
     linked_lights: Vec<(usize, Collections)>,
 }
@@ -119,6 +125,8 @@ pub fn place_world<'py>(context: &mut Context<'_, 'py>, world: &Model, failed: H
         geometry_lights: HashMap::new(),
         assets,
         links,
+        volumes: Vec::new(),
+        fillings: HashMap::new(),
         linked_lights: Vec::new(),
     };
     placer.place(world, &placement)?;
@@ -163,6 +171,7 @@ impl<'py> Placer<'_, '_, 'py> {
                 Kind::Group(group) => self.group(element, group, purpose, placement)?,
                 _ if !self.context.options.shows(purpose.unwrap_or_default()) => {}
                 Kind::Shape(shape) => self.shape(element, shape, placement)?,
+                Kind::Volume(volume) => self.volume(element, volume, placement),
                 Kind::Light => self.lights(element, placement),
                 Kind::Camera => self.cameras(element, placement),
                 Kind::Measured(mesh) => self.meters(element, *mesh, placement),
@@ -358,8 +367,8 @@ impl<'py> Placer<'_, '_, 'py> {
     }
 
     fn finish(self) {
-        let Self { context, failed, gathered, links, linked_lights, .. } = self;
-        let naming: Vec<Vec<u32>> = gathered.iter().map(|set| set.links.0.clone()).collect();
+        let Self { context, failed, gathered, volumes, links, linked_lights, .. } = self;
+        let naming: Vec<Vec<u32>> = gathered.iter().map(|set| set.links.0.clone()).chain(volumes::naming(&volumes)).collect();
         for (light, own) in linked_lights {
             context.scene.lights[light].linking = links.linking(own, &naming);
         }
@@ -370,6 +379,7 @@ impl<'py> Placer<'_, '_, 'py> {
             instances
         });
         context.scene.instances = instances.collect();
+        volumes::add_all(context, volumes);
         drop_meshes(context, &failed);
     }
 }

@@ -20,6 +20,7 @@ use crate::pxr::{Module, Trap};
 use crate::render_settings::RenderSettings;
 use crate::settings;
 use crate::traverse::Walker;
+use crate::volume::GridCache;
 use crate::watch::Reading;
 use crate::{material, motion, place, pxr, render_pass, skeleton};
 use gonio::scene::{HAZE_ANISOTROPY, Medium, Scene, VISIBILITY_CONTRAST};
@@ -67,6 +68,8 @@ pub struct Stage {
     alike: Arc<skeleton::Alike>,
     /// What the last reading left.
     kept: Mutex<Option<Kept>>,
+    /// The grids of volumes that the last reading used.
+    grids: Mutex<GridCache>,
 }
 
 /// Opens a stage and reads it: [`Stage::open`], then [`Stage::load`].
@@ -107,6 +110,7 @@ impl Stage {
             documents,
             alike,
             kept: Mutex::default(),
+            grids: Mutex::default(),
         })
     }
 
@@ -217,6 +221,11 @@ impl Stage {
     /// Lets go of what readings left.
     fn forget(&self) {
         drop(self.take_kept());
+        drop(self.take_grids());
+    }
+
+    fn take_grids(&self) -> GridCache {
+        std::mem::take(&mut *self.grids.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
     /// What a reading gives by itself: without what opening the stage told, and what `pxr` says.
@@ -242,6 +251,7 @@ impl Stage {
         context.up_axis = self.info.up_axis;
         context.roles = pass.roles;
         context.alike = self.alike.clone();
+        context.grids = self.take_grids().next();
         context.material_definitions = self.documents.as_ref().map(|documents| documents.definitions().to_vec()).unwrap_or_default();
         if self.info.has_skeletons {
             skeleton::bake(&mut context);
@@ -254,6 +264,8 @@ impl Stage {
         if options.kept {
             self.keep(std::mem::take(&mut context.kept));
         }
+        // The keys of a shutter use them again.
+        *self.grids.lock().unwrap_or_else(PoisonError::into_inner) = std::mem::take(&mut context.grids);
         let mut info = self.info.clone();
         info.prim_counts = context.prim_counts.iter().map(|(name, count)| (name.clone(), *count)).collect();
         let luminaires = std::mem::take(&mut context.luminaires);

@@ -13,7 +13,7 @@ use crate::options::{Purpose, Standing};
 use crate::prim::Prim;
 use crate::pxr::Module;
 use crate::xform::Xforms;
-use crate::{daylight, haze, mesh, meter, nurbs_patch, primvar, tet_mesh};
+use crate::{daylight, haze, mesh, meter, nurbs_patch, primvar, tet_mesh, volume};
 use gonio::Result;
 use gonio::scene::{MeshId, Origin, Transform};
 use kind::PrimKind;
@@ -244,6 +244,12 @@ impl<'w, 'a, 'py> Walker<'w, 'a, 'py> {
             PrimKind::Quadric => self.quadric(prim, type_name, branch, model)?,
             PrimKind::Curves => self.curves(prim, type_name, branch, model),
             PrimKind::Points => self.points(prim, branch, model),
+            PrimKind::Volume => {
+                if let Some(volume) = volume::read(self.context, &self.xforms, prim) {
+                    let primvars = primvar::handed_down(self.context, prim, &branch.primvars);
+                    push(model, prim, &Branch { primvars, ..branch.clone() }, Kind::Volume(Rc::new(volume)));
+                }
+            }
             PrimKind::Instancer => self.point_instancer(prim, branch, model)?,
             PrimKind::Light => push(model, prim, branch, Kind::Light),
             PrimKind::Camera => push(model, prim, branch, Kind::Camera),

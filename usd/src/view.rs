@@ -109,7 +109,7 @@ pub fn complete(loaded: &mut Loaded, primary_camera: &str, options: &ViewOptions
             width * scene.settings.pixel_aspect / height.max(1.0),
         ));
     }
-    if scene.lights.is_empty() && options.camera_light && !scene.materials.iter().any(shines) {
+    if scene.lights.is_empty() && options.camera_light && !scene.materials.iter().any(|material| shines(material) || glows(material)) {
         let (light, words) = match options.headlight {
             Headlight::Camera => (camera_light(&scene.cameras[scene.settings.camera as usize]), "one at the camera"),
             Headlight::Dome => (dome_light(), "an even sky"),
@@ -151,6 +151,11 @@ fn set_resolution(loaded: &mut Loaded, options: &ViewOptions) -> Result<()> {
     };
     scene.settings.resolution = resolution.map(|side| ((f64::from(side) * options.scale).round() as u32).max(u32::from(side > 0)));
     Ok(())
+}
+
+/// Whether what is within a material shines by itself.
+fn glows(material: &Material) -> bool {
+    material.medium.emission.iter().any(|x| *x > 0.0)
 }
 
 /// Whether a material shines by itself.

@@ -6,7 +6,7 @@ use super::{
 use gonio::{
     Diagnostic, Result,
     compile::{CompiledScene, compile},
-    scene::Scene,
+    scene::{Field, Scene},
 };
 use gonio_usd::{SampleTime, Stage};
 use pyo3::prelude::*;
@@ -53,6 +53,7 @@ fn as_json(loaded: &gonio_usd::Loaded, compiled: &CompiledScene, diagnostics: &[
         "instances": s.instances,
         "materials": loaded.scene.materials.len(),
         "textures": loaded.scene.textures.len(),
+        "volumes": loaded.scene.fields.iter().map(|field| &field.origin.name).collect::<Vec<_>>(),
         "geometry_bytes": s.geometry_bytes,
         "texture_bytes": s.texture_bytes,
         "bounds": if compiled.bounds.is_empty() { Value::Null } else { json!([compiled.bounds.min, compiled.bounds.max]) },
@@ -81,11 +82,25 @@ fn as_text(loaded: &gonio_usd::Loaded, compiled: &CompiledScene, diagnostics: &[
     if !compiled.bounds.is_empty() {
         lines.push(format!("bounds: {:.4?} to {:.4?} m", compiled.bounds.min, compiled.bounds.max));
     }
+    lines.extend(volumes(&loaded.scene));
     lines.extend(info.cameras.iter().map(|camera| format!("camera {}", camera.path)));
     lines.extend(loaded.scene.lights.iter().map(|light| format!("light {}: {}", light.origin.name, describe(light))));
     lines.extend(emissive(&loaded.scene));
     lines.extend(diagnostics.iter().map(|d| format!("{}: {d}", if d.severity == gonio::Severity::Warning { "warning" } else { "note" })));
     lines
+}
+
+fn volumes(scene: &Scene) -> Vec<String> {
+    let line = |field: &Field| {
+        let heat = if field.heat.is_some() { ", with heat" } else { "" };
+        let (bricks, blocks) = (field.density.bricks.len(), field.density.blocks.len());
+        format!(
+            "volume {}: {bricks} bricks and {blocks} even blocks of 8³ voxels, at most {:.4}{heat}",
+            field.origin.name,
+            field.density.most()
+        )
+    };
+    scene.fields.iter().map(line).collect()
 }
 
 fn emissive(scene: &Scene) -> Vec<String> {

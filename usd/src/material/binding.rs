@@ -2,6 +2,7 @@
 
 use super::convert::fallback;
 use super::shaded::material_on;
+use super::volume::{self, VolumeShading};
 use crate::context::Context;
 use crate::kept::KeptPrim;
 use crate::prim::Prim;
@@ -9,6 +10,7 @@ use crate::pxr::Module;
 use gonio::scene::{MaterialId, Origin};
 use pyo3::{intern, prelude::*, types::PyList};
 use std::collections::HashMap;
+use std::rc::Rc;
 
 /// The material of a prim (a geometry prim or a GeomSubset), or the one that shows its displayColor.
 pub fn bound<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> MaterialId {
@@ -24,20 +26,38 @@ pub fn bound_all<'py>(context: &mut Context<'_, 'py>, prims: &[Prim<'py>]) -> Ve
     for (index, prim) in prims.iter().enumerate() {
         let id = materials.get(index).and_then(Option::as_ref).and_then(|bound| material_on(context, bound, prim));
         if materials.get(index).is_none_or(Option::is_none) {
-            report_absent(context, prim);
+            report_absent(context, prim, "displayColor takes its place");
         }
         ids.push(id.unwrap_or_else(|| fallback(context, has_display_opacity(context, prim))));
     }
     ids
 }
 
-/// Names the material that a prim or its nearest bound ancestor asks for, where there is none.
-fn report_absent<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) {
+/// What the volume prim's material says of it; `None` where none is bound, or that says nothing of volumes. Each material is read once.
+pub(crate) fn volume_shading<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<Rc<VolumeShading>> {
+    let computed = compute(context, std::slice::from_ref(prim));
+    let materials = context.attempt_at(prim, "the bound material cannot be found", computed)?;
+    let Some(Some(material)) = materials.into_iter().next() else {
+        report_absent(context, prim, "the usual one of volumes takes its place");
+        return None;
+    };
+    let path = material.path();
+    if let Some(known) = context.volume_shadings.get(&path) {
+        return known.clone();
+    }
+    context.shaded.prim = Some(prim.clone());
+    let shading = volume::shading(context, &material).map(Rc::new);
+    context.volume_shadings.insert(path, shading.clone());
+    shading
+}
+
+/// Names the material that a prim or its nearest bound ancestor asks for, where there is none, and what is used instead.
+fn report_absent<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, instead: &str) {
     let mut place = Some(Prim::new(prim.object().clone()));
     while let Some(bound) = place {
         if let Some(path) = bound.targets("material:binding").first() {
             if context.prim_at(path).is_none() {
-                let message = || format!("the material <{path}> that is bound does not exist; displayColor takes its place");
+                let message = || format!("the material <{path}> that is bound does not exist; {instead}");
                 context.once("absent material", path, &bound.origin(), message);
             }
             return;

@@ -35,9 +35,11 @@ mod volume;
 mod xml;
 
 pub use asked::Shaded;
+pub(crate) use binding::volume_shading;
 pub use binding::{bound, bound_all};
 pub use convert::fallback;
 pub use document::{Substitution, substitute_documents};
 pub use library::Library;
 pub(crate) use textures::{image_source, texture};
 pub(crate) use value::{stated_colour_space, to_linear_rec709};
+pub(crate) use volume::VolumeShading;

@@ -24,17 +24,33 @@ pub(super) fn render_contexts(prim: &Prim<'_>) -> Vec<String> {
     RENDER_CONTEXTS.iter().copied().chain(others).map(str::to_owned).collect()
 }
 
-/// An output of materials beside their surface: its name, and the methods of `UsdShade.Material` that find it and its shader.
-pub(super) struct Output(&'static str, &'static str, &'static str);
+/// An output of materials beside their surface.
+pub(super) struct Output {
+    name: &'static str,
+    /// The method of `UsdShade.Material` that finds it.
+    output: &'static str,
+    /// That which finds its shader.
+    source: &'static str,
+    /// Whether it is read in render contexts of other renderers.
+    in_others: bool,
+}
 
-pub(super) const DISPLACEMENT: Output = Output("displacement", "GetDisplacementOutput", "ComputeDisplacementSource");
-pub(super) const VOLUME: Output = Output("volume", "GetVolumeOutput", "ComputeVolumeSource");
+pub(super) const DISPLACEMENT: Output =
+    Output { name: "displacement", output: "GetDisplacementOutput", source: "ComputeDisplacementSource", in_others: false };
+pub(super) const VOLUME: Output = Output { name: "volume", output: "GetVolumeOutput", source: "ComputeVolumeSource", in_others: true };
 
 /// The shader behind an output, in the render context that goes first.
-pub(super) fn source<'py>(material: &Prim<'py>, Output(name, output, source): Output) -> PyResult<Option<Prim<'py>>> {
+pub(super) fn source<'py>(material: &Prim<'py>, Output { name, output, source, in_others }: Output) -> PyResult<Option<Prim<'py>>> {
     // Most materials have none, which is told by names that are known.
-    let stated = RENDER_CONTEXTS.into_iter().filter(|context| material.has_authored(&output_name(context, name)));
-    let stated: Vec<&str> = stated.collect();
+    let known = RENDER_CONTEXTS.into_iter().filter(|context| material.has_authored(&output_name(context, name)));
+    let mut stated: Vec<&str> = known.collect();
+    if in_others {
+        let others = material
+            .authored_names()
+            .iter()
+            .filter_map(|authored| authored.strip_prefix("outputs:")?.strip_suffix(name)?.strip_suffix(':'));
+        stated.extend(others.filter(|context| !RENDER_CONTEXTS.contains(context)));
+    }
     if stated.is_empty() {
         return Ok(None);
     }

@@ -18,6 +18,7 @@ pub(super) enum PrimKind {
     /// Curves of any kind.
     Curves,
     Points,
+    Volume,
     Instancer,
     Light,
     Camera,
@@ -56,6 +57,7 @@ impl<'py> Walker<'_, '_, 'py> {
             "NurbsPatch" => PrimKind::Patch,
             "TetMesh" => PrimKind::Tetrahedra,
             "Points" => PrimKind::Points,
+            "Volume" => PrimKind::Volume,
             "PointInstancer" => PrimKind::Instancer,
             "Camera" => PrimKind::Camera,
             "Material" | "Shader" | "NodeGraph" | "GeomSubset" | "Skeleton" | "SkelAnimation" | "BlendShape" | "RenderSettings"
