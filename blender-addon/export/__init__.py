@@ -243,7 +243,7 @@ class Exporter:
         self._fibres.sweep()
         self._volumes.sweep()
         changes.geometry |= self._meshes.any_written or self._fibres.any_written or self._volumes.any_written
-        changes.shading |= self._materials.any_written
+        changes.shading |= self._materials.any_written or self._volumes.any_shaded
         changes.transforms |= self._instances.any_written
 
     def _surfaces(self, group, materials, depsgraph):

@@ -32,12 +32,13 @@ class Volumes:
         self._fillings, self._seen = {}, set()
         # Materials of this pass, and of the pass before.
         self._count = self._before = 0
-        self.any_written = False
+        self.any_written = self.any_shaded = False
 
     def begin(self, keep_known):
         """Starts a pass; without `keep_known` files and simulations are looked at again."""
         self._fields.begin()
-        self.any_written, self._seen, self._before, self._count = False, set(), self._count, 0
+        self.any_written = self.any_shaded = False
+        self._seen, self._before, self._count = set(), self._count, 0
         self._sources.begin(keep_known)
 
     def forget(self, uids):
@@ -106,7 +107,7 @@ class Volumes:
         number, _ = self._materials.take(("volume", self._count))
         self._count += 1
         described = _described(inside.name, {**filling.medium(density), "field": field}, inside.pass_index)
-        self.any_written |= self._materials.put(self._scene.put_material, described, number)
+        self.any_shaded |= self._materials.put(self._scene.put_material, described, number)
         return number
 
     def sweep(self):

@@ -15,7 +15,7 @@ APART = 1e-3
 
 @dataclass
 class Baked:
-    """Arrays of density and heat, which coefficients a metre multiply; `has_colours` says whether these stand for others, too."""
+    """Arrays of density and heat, which coefficients a metre multiply; whether these stand for others elsewhere."""
 
     density: np.ndarray
     heat: np.ndarray
@@ -23,7 +23,8 @@ class Baked:
     scattering: np.ndarray
     turned: float
     emission: np.ndarray
-    has_colours: bool
+    density_has_colours: bool
+    heat_has_colours: bool
 
 
 class _Sum:
@@ -75,5 +76,6 @@ def bake(dense, shining, lattice, grids):
         shares[3:],
         taken.of_one(turned),
         sent.shares(),
-        taken.are_apart() or sent.are_apart(),
+        taken.are_apart(),
+        sent.are_apart(),
     )

@@ -132,13 +132,13 @@ def _baked(dense, shining, grids, told):
     if lattice is None:
         return _plain(dense, grids, told)
     made = bake(dense, shining, lattice, grids)
-    told = told + [("volume colours", "")] * made.has_colours
     glow, heat = None, made.heat
     if len(shining.grids) == 1 and not shining.places and grids.is_scalar(*shining.grids):
         heat = np.ascontiguousarray(grids.dense(*shining.grids).on(lattice).values)
         glow = glow_of(shining, float(heat.max()))
     elif not shining.grids and not shining.places:
         heat, glow = None, glow_of(shining, 0.0)
+    told = told + [("volume colours", "")] * (made.density_has_colours or (glow is None and made.heat_has_colours))
     glow = glow or Glow(made.emission, [], float(heat.max()))
     if not glow.emission.any():
         heat, glow = None, Glow(np.zeros(3), [], 0.0)

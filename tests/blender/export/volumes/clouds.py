@@ -69,3 +69,15 @@ def exported():
     made, report = exporter()
     scene = made.sync(depsgraph())
     return made, scene, [line.text for line in report.diagnostics]
+
+
+def followed(exporter):
+    """Has an exporter follow all edits and frames, as a viewport does; what came out different last comes first."""
+    found = []
+
+    def update(scene, depsgraph):
+        found.insert(0, exporter.update(depsgraph))
+
+    bpy.app.handlers.depsgraph_update_post.append(update)
+    bpy.app.handlers.frame_change_post.append(update)
+    return found
