@@ -3,7 +3,7 @@
 import pytest
 
 
-def look(bounces=2, samples=64):
+def look(bounces=2, samples=32):
     import bpy
     from beside_cycles import scene
 
@@ -48,7 +48,7 @@ def alike(path, lines=(), mean=0.03, block=0.12):
     assert np.allclose(*middles, atol=0.3), middles
 
 
-@pytest.mark.blender
+@pytest.mark.blender(seconds=900)
 @pytest.mark.parametrize("space", ["OBJECT", "WORLD"])
 def test_a_cloud_in_sun_and_lamp(tmp_path, space):
     from clouds import ball, cloud, filled, stored
@@ -62,7 +62,7 @@ def test_a_cloud_in_sun_and_lamp(tmp_path, space):
     alike(tmp_path)
 
 
-@pytest.mark.blender
+@pytest.mark.blender(seconds=900)
 def test_fire_by_temperature(tmp_path):
     from clouds import ball, cloud, filled, stored
 
@@ -74,7 +74,7 @@ def test_fire_by_temperature(tmp_path):
     alike(tmp_path, mean=0.05)
 
 
-@pytest.mark.blender
+@pytest.mark.blender(seconds=900)
 def test_glow_by_density_and_a_ramp(tmp_path):
     from clouds import attribute, ball, cloud, filled, stored
 
