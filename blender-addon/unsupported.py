@@ -35,6 +35,12 @@ OBJECTS = {
     ),
     "volume asks": Limit("Shaders of volume objects that ask for more than grids, places, pictures and their object", "0 in its place"),
     "volume holdout": Limit("Volume objects as holdouts", "seen as others are"),
+    "volume extent": _untold(
+        "Emission of volume objects where their grids hold nothing", "it ends a voxel beyond what they hold; in Cycles with blocks of 8³ voxels"
+    ),
+    "temperatures": _untold(
+        "Temperatures between voxels: since 5.0 Cycles mixes the light of voxels", "temperatures are mixed; less light in coarse fire, 9 % over 12 voxels"
+    ),
     "volume settings": _untold(
         "Precision, clipping, step size and velocity of volume objects, cubic interpolation, and their motion blur",
         "full precision, trilinear and without steps; they stand still at the frame",

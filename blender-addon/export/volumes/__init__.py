@@ -65,9 +65,10 @@ class Volumes:
                 with self._report.guard("Object", group.name, "it is left out"):
                     here = Place(matrix.astype(float), {name: value[number] for name, value in values.items()})
                     filling = self._filling((group.object_uid, group.data_uid, number), inside, grids, here)
-                    for limit, subject in filling.told:
-                        self._report.tell(limit, "Object", group.name, subject)
-                    found.append(self._shown(group, number, filling, here, inside))
+                    if filling is not None:
+                        for limit, subject in filling.told:
+                            self._report.tell(limit, "Object", group.name, subject)
+                        found.append(self._shown(group, number, filling, here, inside))
         return found
 
     def _filling(self, key, inside, grids, here):
@@ -75,7 +76,7 @@ class Volumes:
         self._seen.add(key)
         asked = (inside, grids, here.values_key(), here.matrix.tobytes())
         before, filling = self._fillings.get(key, (None, None))
-        if filling is None or before[:3] != asked[:3] or (filling.is_placed and before[3] != asked[3]):
+        if before is None or before[:3] != asked[:3] or (filling is not None and filling.is_placed and before[3] != asked[3]):
             filling = fill(inside.translator, inside.medium, grids, here)
         self._fillings[key] = asked, filling
         return filling

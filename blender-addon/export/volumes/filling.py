@@ -74,9 +74,11 @@ class Glow:
 
 
 def fill(t, inside, grids, place):
-    """What fills a volume of these grids at a place."""
+    """What fills a volume of these grids at a place; None where it asks for none of them, as in Cycles, where such a volume has no extent."""
     dense = Asked(t, grids, place, (inside.absorption, inside.scattering, inside.turned))
     shining = Asked(t, grids, place, (inside.emission,))
+    if not dense.grids and not shining.grids:
+        return None
     told = [("volume asks", ", ".join(sorted(dense.unknown | shining.unknown)))] if dense.unknown or shining.unknown else []
     try:
         return _simple(dense, shining, grids, told) or _baked(dense, shining, grids, told)
@@ -95,7 +97,7 @@ def _simple(dense, shining, grids, told):
     if not is_clear and not (dense.grids and is_multiple(dense)):
         return None
     names = sorted(dense.grids) or sorted(shining.grids)
-    if not names or not all(grids.are_alike(names[0], name) for name in shining.grids):
+    if not all(grids.are_alike(names[0], name) for name in shining.grids):
         return None
     glow = glow_of(shining, max((grids.highest(name) for name in shining.grids), default=0.0))
     heat = grids.source(*shining.grids) if shining.grids and glow.emission.any() else None
@@ -127,8 +129,6 @@ def glow_of(shining, highest):
 def _baked(dense, shining, grids, told):
     """Everything else, point by point where these are not too many; else by the plain grid."""
     lattice = lattice_of(dense.grids | shining.grids, grids)
-    if lattice is not None and not (dense.grids or shining.grids or dense.places or shining.places):
-        lattice = lattice.whole()
     if lattice is None:
         return _plain(dense, grids, told)
     made = bake(dense, shining, lattice, grids)
@@ -149,21 +149,14 @@ def _baked(dense, shining, grids, told):
 
 
 def lattice_of(names, grids):
-    """The points on which a shader is asked: those of the finest grid that it wants, or of the volume's first; None where they are too many."""
-    counts = {name: grids.count(name) for name in names or _first(grids)}
+    """The points on which a shader is asked: those of the finest grid that it wants; None where they are too many."""
+    counts = {name: grids.count(name) for name in names}
     return None if max(counts.values()) > MOST else grids.dense(max(counts, key=lambda name: (counts[name], name)))
-
-
-def _first(grids):
-    names = sorted(grids.names)
-    if not names:
-        raise ValueError("it has no grids of numbers")
-    return ["density"] if "density" in names else names[:1]
 
 
 def _plain(dense, grids, told):
     """The density's own grid in the place of what is made of it."""
-    names = sorted(name for name in dense.grids if grids.is_scalar(name)) or _first(grids)
+    names = sorted(dense.grids, key=lambda name: (not grids.is_scalar(name), name)) or sorted(shining.grids)
     (unit,) = dense.at(np.ones(1))
     coefficients = {"absorption": unit[:3], "scattering": unit[3:6], "anisotropy": anisotropy(unit[3:6], unit[6])}
     told = [*told, ("volume size", "")]

@@ -36,13 +36,6 @@ class Dense:
         values = self.values.reshape(self.count, -1)[rows].astype(np.float32)
         return np.concatenate([np.broadcast_to(values, (len(rows), 3)), np.ones((len(rows), 1), np.float32)], axis=1)
 
-    def whole(self):
-        """One point in the middle of all that these fill."""
-        matrix = self.to_object.copy()
-        matrix[:3, :3] *= self.shape
-        matrix[:3, 3] += self.to_object[:3, :3] @ (0.5 * np.array(self.shape) - 0.5)
-        return Dense(np.ones((1, 1, 1), np.float32), matrix)
-
     def points(self, rows):
         """Places of some points, (N, 3), in the object's space."""
         lattice = np.stack(np.unravel_index(rows, self.shape), axis=1).astype(float)

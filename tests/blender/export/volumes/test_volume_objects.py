@@ -35,7 +35,7 @@ def test_a_file_is_read_by_the_renderer_and_fills_its_box(tmp_path):
 @pytest.mark.blender
 def test_no_material_is_the_usual_smoke_and_no_volume_is_nothing(tmp_path):
     import numpy as np
-    from clouds import ball, cloud, exported, stored
+    from clouds import ball, cloud, exported, filled, stored
     from recorder import empty, material
 
     empty()
@@ -45,6 +45,10 @@ def test_no_material_is_the_usual_smoke_and_no_volume_is_nothing(tmp_path):
     assert not lines and np.allclose(scene.materials[0]["medium"]["scattering"], 0.5)
     thing.data.materials.append(material()[0])
     assert not exported()[1].instances
+    # As in Cycles, one that asks for no grid has no extent.
+    thing.data.materials[0] = filled("VolumeScatter", Density=1.0)[0]
+    _, scene, lines = exported()
+    assert not lines and not scene.instances
 
 
 @pytest.mark.blender
