@@ -39,7 +39,8 @@ OBJECTS = {
         "Emission of volume objects where their grids hold nothing", "it ends a voxel beyond what they hold; in Cycles with blocks of 8³ voxels"
     ),
     "temperatures": _untold(
-        "Temperatures between voxels: since 5.0 Cycles mixes the light of voxels", "temperatures are mixed; less light in coarse fire, 9 % over 12 voxels"
+        "Temperatures between voxels: since 5.0 Cycles mixes the light of voxels",
+        "temperatures are mixed; less light in coarse fire, 9 % over 12 voxels",
     ),
     "volume settings": _untold(
         "Precision, clipping, step size and velocity of volume objects, cubic interpolation, and their motion blur",
