@@ -28,7 +28,24 @@ def _untold(what, instead):
 
 
 OBJECTS = {
-    "kind of object": Limit("Volumes, grease pencil", "left out"),
+    "kind of object": Limit("Grease pencil", "left out"),
+    "volume colours": Limit("Colours of volume objects that vary from place to place", "the mean colour; the density varies"),
+    "volume size": Limit(
+        "Densities of volume objects that are no multiple of one grid, over more than 2²⁵ voxels", "a multiple of that grid; they do not shine"
+    ),
+    "volume asks": Limit("Shaders of volume objects that ask for more than grids, places, pictures and their object", "0 in its place"),
+    "volume holdout": Limit("Volume objects as holdouts", "seen as others are"),
+    "volume extent": _untold(
+        "Emission of volume objects where their grids hold nothing", "it ends a voxel beyond what they hold; in Cycles with blocks of 8³ voxels"
+    ),
+    "temperatures": _untold(
+        "Temperatures between voxels: since 5.0 Cycles mixes the light of voxels",
+        "temperatures are mixed; less light in coarse fire, 9 % over 12 voxels",
+    ),
+    "volume settings": _untold(
+        "Precision, clipping, step size and velocity of volume objects, cubic interpolation, and their motion blur",
+        "full precision, trilinear and without steps; they stand still at the frame",
+    ),
     "curve types": _untold("Hair curves of the types Poly, Bézier and NURBS", "drawn through their points, as in Cycles"),
     "catcher's lamp": _quietly("Lamps whose light shadow catchers leave out of account", "it counts as all others"),
     "adaptive subdivision": _untold(
@@ -107,7 +124,9 @@ WORLDS = {
 }
 
 MATERIALS = {
-    "volume": Limit("Volumes of materials that vary from place to place", "the inside stays empty; without a surface, rays pass"),
+    "volume shader": Limit("Shaders of volume objects that are no volume's", "Principled Volume as it is made"),
+    "varying phase": Limit("Phase functions of volume objects that vary from place to place", "the value of their socket"),
+    "volume": Limit("Volumes of meshes that vary from place to place", "the inside stays empty; without a surface, rays pass"),
     "phase": Limit(
         "Phase functions beyond Henyey and Greenstein's, and sums of volumes of several", "Henyey and Greenstein's of the same mean cosine"
     ),

@@ -5,7 +5,7 @@ import gonio
 
 from . import camera, collecting, limits, motion, settings, view, world
 from .changes import Changes, touched
-from .gather import Walk, fill_random
+from .gather import VOLUME, Walk, fill_random
 from .fibres import KINDS as FIBRES
 from .fibres import Fibres
 from .given import fill_given, is_given
@@ -21,6 +21,7 @@ from .meshes import Meshes
 from .slots import Slots
 from .surroundings import Surroundings
 from .transforms import columns
+from .volumes import Volumes
 
 __all__ = ["Changes", "Exporter"]
 
@@ -34,8 +35,10 @@ class Exporter:
         self._textures = Slots()
         self._images = Images(self.scene, self._textures)
         self._measured = Slots()
-        self._materials = Materials(self.scene, Slots(), self._images, Measurements(self.scene, self._measured), report)
-        self._meshes = Meshes(self.scene, Slots(), report)
+        meshes, materials = Slots(), Slots()
+        self._materials = Materials(self.scene, materials, self._images, Measurements(self.scene, self._measured), report)
+        self._meshes = Meshes(self.scene, meshes, report)
+        self._volumes = Volumes(self.scene, meshes, materials, report)
         self._fibres = Fibres(self.scene, report)
         self._instances = Instances(self.scene, report)
         self._lights = Lights(self.scene, self._images, report)
@@ -119,6 +122,7 @@ class Exporter:
         if found.geometry:
             self._meshes.forget(found.geometry)
             self._fibres.forget(found.geometry)
+            self._volumes.forget(found.geometry)
         if found.every_material:
             self._materials.forget_all()
         for uid in found.materials:
@@ -202,6 +206,7 @@ class Exporter:
         """Meshes, materials, placements and lamps of everything that the depsgraph shows."""
         self._meshes.begin(keep_known)
         self._fibres.begin(keep_known)
+        self._volumes.begin(keep_known)
         self._materials.begin(self._surroundings(depsgraph))
         # All objects are looked at anew.
         self.report.forget_all("Object")
@@ -213,7 +218,13 @@ class Exporter:
         for group, key in keyed:
             with self.report.guard("Object", group.name, "it is left out"):
                 limits.of_object(group, self.report)
-                if group.kind != "LIGHT" and (layer.use_strand if group.kind in FIBRES else layer.use_solid):
+                if group.kind == VOLUME and layer.use_volumes:
+                    inside = self._materials.inside(group.slots, walk.materials, override)
+                    filled = self._volumes.of_group(group, inside, depsgraph)
+                    entries += [(*each, frozenset()) for each in filled]
+                    # Nothing else goes by these keys: volumes stand still while the shutter is open.
+                    keys += [(key, number) for number in range(len(filled))]
+                elif group.kind not in ("LIGHT", VOLUME) and (layer.use_strand if group.kind in FIBRES else layer.use_solid):
                     materials = self._materials.of_slots(group.slots, walk.materials, override)
                     for shown, numbers in self._surfaces(group, materials, depsgraph):
                         entries.append((group, shown, numbers, materials.placed))
@@ -230,8 +241,9 @@ class Exporter:
         self._lights.lamps([(group, key) for group, key in keyed if group.kind == "LIGHT"], self._instances.sets)
         self._meshes.sweep()
         self._fibres.sweep()
-        changes.geometry |= self._meshes.any_written or self._fibres.any_written
-        changes.shading |= self._materials.any_written
+        self._volumes.sweep()
+        changes.geometry |= self._meshes.any_written or self._fibres.any_written or self._volumes.any_written
+        changes.shading |= self._materials.any_written or self._volumes.any_shaded
         changes.transforms |= self._instances.any_written
 
     def _surfaces(self, group, materials, depsgraph):

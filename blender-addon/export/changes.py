@@ -72,7 +72,7 @@ def _sort(found, update, block):
         found.placements = True
     elif isinstance(block, bpy.types.Camera):
         found.camera = True
-    elif isinstance(block, (bpy.types.Mesh, bpy.types.Curve, bpy.types.MetaBall)):
+    elif isinstance(block, (bpy.types.Mesh, bpy.types.Curve, bpy.types.MetaBall, bpy.types.Volume)):
         found.placements = True
         # The mesh of an edited material is listed too, unchanged.
         if update.is_updated_geometry:

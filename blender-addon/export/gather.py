@@ -17,6 +17,8 @@ AS_MESH = {"CURVE", "SURFACE", "FONT", "META"}
 # Kinds of object that show nothing by themselves.
 # The kind of groups that are the hair of particle systems.
 HAIR = "HAIR"
+# The kind of groups that grids fill.
+VOLUME = "VOLUME"
 SILENT = {"EMPTY", "CAMERA", "ARMATURE", "LATTICE", "SPEAKER", "LIGHT_PROBE"}
 
 
@@ -122,7 +124,7 @@ class Walk:
             original.name,
             original.session_uid,
             data.session_uid,
-            "MESH" if kind != "LIGHT" and isinstance(data, bpy.types.Mesh) else kind,
+            _kind(thing, data),
             data,
             # What the walk gives for an instance is gone after it.
             original.evaluated_get(self._depsgraph) if is_instance else thing,
@@ -144,6 +146,23 @@ class Walk:
             self.materials[uid] = material
             uids.append(uid)
         return tuple(uids)
+
+
+def _kind(thing, data):
+    """What is shown of an object: geometry nodes give it others, and simulations of smoke fill what looks like a mesh."""
+    if thing.type == "LIGHT":
+        return "LIGHT"
+    if isinstance(data, bpy.types.Volume) or domain_of(thing) is not None:
+        return VOLUME
+    return "MESH" if isinstance(data, bpy.types.Mesh) else thing.type
+
+
+def domain_of(thing):
+    """The settings of an object's smoke and fire; None for whatever is no domain of these."""
+    for modifier in thing.modifiers:
+        if modifier.type == "FLUID" and modifier.fluid_type == "DOMAIN" and modifier.domain_settings.domain_type == "GAS":
+            return modifier.domain_settings
+    return None
 
 
 def _topmost(thing):

@@ -113,7 +113,7 @@ class Instances:
         self._single[group.object_uid] = None
         if group.kept is not None and not self._leave_out(group):
             return
-        values = _values(group, wanted) if wanted else NO_VALUES
+        values = values_of(group, wanted) if wanted else NO_VALUES
         terminator = min(group.source.shadow_terminator_geometry_offset, 1.0)
         of_group = (group.name, group.visibility, group.pass_index, group.source.lightgroup, group.asset, terminator)
         if is_single:
@@ -206,7 +206,7 @@ class Instances:
             self._written.append(entry)
 
 
-def _values(group, wanted):
+def values_of(group, wanted):
     """The values that materials want of each placement."""
     values = _of_object(group.source, group.pass_index, wanted, len(group.matrices))
     if RANDOM in wanted:

@@ -3,7 +3,7 @@
 
 from functools import lru_cache
 
-from .gather import AS_MESH, HAIR
+from .gather import AS_MESH, HAIR, VOLUME
 
 # By the owner of the setting: the entry of the table, where the setting stands, its values where nothing is asked for, and its name.
 SCENE = (
@@ -29,7 +29,7 @@ WORLD = (
 )
 MATERIAL = (("bump correction", "cycles.use_bump_map_correction", (True,), ""),)
 # Kinds of objects that are shown, beside those that become meshes.
-SHOWN = {"MESH", "CURVES", "POINTCLOUD"}
+SHOWN = {"MESH", "CURVES", "POINTCLOUD", VOLUME}
 # Switches of passes that mean no pass that could be missing: subsurface light is part of the diffuse passes, as in Cycles.
 NO_PASSES = {"use_pass_cryptomatte_accurate"} | {f"use_pass_subsurface_{part}" for part in ("direct", "indirect", "color")}
 # Passes whose switches are named otherwise.

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import bpy
 
 from ..report import words_of
-from .material import translate
+from .material import translate, translate_inside
 from .surroundings import Surroundings
 
 
@@ -19,12 +19,22 @@ class Slotted:
     placed: frozenset
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Inside:
+    """What fills volumes of a material: its translator and the medium, None where there is none."""
+
+    translator: object
+    medium: object
+    name: str
+    pass_index: int
+
+
 class Materials:
     """Numbers of the scene's materials and what each wants of meshes and placements."""
 
     def __init__(self, scene, slots, images, measurements, report):
         self._scene, self._slots, self._images, self._measurements, self._report = scene, slots, images, measurements, report
-        self._translated, self.any_written = {}, False
+        self._translated, self._insides, self.any_written = {}, {}, False
         # The names of materials that this pass shows, by session_uid.
         self._shown, self._before = {}, {}
         # Within a pass: many objects have the same slots.
@@ -42,17 +52,18 @@ class Materials:
         """Forgets materials that nothing shows any more, and what was said of them."""
         self._surroundings = Surroundings()
         for uid in self._before.keys() - self._shown.keys():
-            self._translated.pop(uid, None)
+            self.forget(uid)
             if (name := self._before[uid]) not in self._shown.values():
                 self._report.forget("Material", name)
 
     def forget_all(self):
         """Has every material translated again."""
-        self._translated = {}
+        self._translated, self._insides = {}, {}
 
     def forget(self, uid):
         """Has one material translated again."""
         self._translated.pop(uid, None)
+        self._insides.pop(uid, None)
 
     def look_around(self, surroundings, depsgraph):
         """Writes the materials again that asked for what is otherwise now; gives whether there are any."""
@@ -76,6 +87,27 @@ class Materials:
             self._slotted[slots] = Slotted(numbers, primvars, frozenset().union(*(each.instance_primvars for each in translated)))
         return self._slotted[slots]
 
+    def inside(self, slots, materials, override):
+        """What fills volume objects with these slots: of the first material that has a medium, or of none."""
+        shown = [override] if override is not None else [materials[uid] for uid in slots] or [None]
+        found = [self._inside(material) for material in shown]
+        return next((inside for inside in found if inside.medium is not None), found[0])
+
+    def _inside(self, material):
+        uid = _uid(material)
+        self._shown[uid] = "" if material is None else material.name
+        if uid not in self._insides:
+            self._forget_lines(material, uid)
+            t, medium = translate_inside(material, self._images, self._report)
+            named = ("volume", 0) if material is None else (material.name, material.pass_index)
+            self._insides[uid] = Inside(t, medium, *named)
+        return self._insides[uid]
+
+    def _forget_lines(self, material, uid):
+        """What was said of a material, before the first of its translations."""
+        if material is not None and uid not in self._translated and uid not in self._insides:
+            self._report.forget("Material", material.name)
+
     def description(self, number):
         """What was written last of a material of the scene."""
         return self._slots.written(number)
@@ -86,8 +118,7 @@ class Materials:
         self._shown[uid] = "" if material is None else material.name
         number, _ = self._slots.take(uid)
         if uid not in self._translated:
-            if material is not None:
-                self._report.forget("Material", material.name)
+            self._forget_lines(material, uid)
             self._translated[uid] = self._written(material, number)
         return number
 

@@ -63,3 +63,11 @@ class Slots:
         freed = [self._numbers.pop(key) for key in gone]
         self._free += freed
         return freed
+
+    def trim(self):
+        """Gives back free places at the end of the list; gives how many are left."""
+        while self._length - 1 in self._free:
+            self._length -= 1
+            self._free.remove(self._length)
+            self._written.pop(self._length, None)
+        return self._length

@@ -113,10 +113,10 @@ def atmosphere(world, images, report):
     if volume is None or not volume.is_linked:
         return {}
     found = medium(t, volume, t.root)
-    if found is None:
+    if found is None or not found.is_even:
         t.tell("world volume", end, t.root)
         return {}
-    if not found.exact:
+    if not found.is_plain:
         t.tell("phase", end, t.root, "Volume")
     return found.described()
 

@@ -24,6 +24,7 @@ from . import (
     simplify,
     stock,
     subdivision,
+    volume,
     world,
 )
 
@@ -46,6 +47,7 @@ PANELS = (
     *world.PANELS,
     *light_group.PANELS,
     *material.PANELS,
+    *volume.PANELS,
     *object_visibility.PANELS,
     *motion_blur.PANELS[2:],
     *subdivision.PANELS[1:],

@@ -25,6 +25,19 @@ class GONIO_MATERIAL_PT_surface(MaterialPanel, Panel):
             self.layout.prop(context.material, "diffuse_color")
 
 
+class GONIO_MATERIAL_PT_volume(MaterialPanel, Panel):
+    bl_label = "Volume"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and context.material.node_tree is not None
+
+    def draw(self, context):
+        self.layout.use_property_split = True
+        draw_shader(self.layout, context.material, "OUTPUT_MATERIAL", "Volume")
+
+
 class GONIO_MATERIAL_PT_displacement(MaterialPanel, Panel):
     bl_label = "Displacement"
 
@@ -49,4 +62,4 @@ class GONIO_MATERIAL_PT_settings(MaterialPanel, Panel):
         self.layout.prop(context.material, "use_transparent_shadow")
 
 
-PANELS = (GONIO_MATERIAL_PT_surface, GONIO_MATERIAL_PT_displacement, GONIO_MATERIAL_PT_settings)
+PANELS = (GONIO_MATERIAL_PT_surface, GONIO_MATERIAL_PT_volume, GONIO_MATERIAL_PT_displacement, GONIO_MATERIAL_PT_settings)

@@ -32,6 +32,7 @@ class GONIO_VIEWLAYER_PT_filter(GonioPanel, Panel):
         column.prop(layer, "use_sky", text="Environment")
         column.prop(layer, "use_solid", text="Surfaces")
         column.prop(layer, "use_strand", text="Hair")
+        column.prop(layer, "use_volumes", text="Volumes")
         blurred = column.row()
         blurred.active = layer.id_data.render.use_motion_blur
         blurred.prop(layer, "use_motion_blur", text="Motion Blur")

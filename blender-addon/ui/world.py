@@ -36,6 +36,19 @@ class GONIO_WORLD_PT_surface(WorldPanel, Panel):
             self.layout.prop(context.world, "color")
 
 
+class GONIO_WORLD_PT_volume(WorldPanel, Panel):
+    bl_label = "Volume"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and context.world.node_tree is not None
+
+    def draw(self, context):
+        self.layout.use_property_split = True
+        draw_shader(self.layout, context.world, "OUTPUT_WORLD", "Volume")
+
+
 class GONIO_WORLD_PT_luminance(WorldPanel, Panel):
     bl_label = "Luminance"
     bl_options = {"DEFAULT_CLOSED"}
@@ -159,6 +172,7 @@ class GONIO_WORLD_PT_settings(WorldPanel, Panel):
 PANELS = (
     GONIO_WORLD_PT_preview,
     GONIO_WORLD_PT_surface,
+    GONIO_WORLD_PT_volume,
     GONIO_WORLD_PT_luminance,
     GONIO_WORLD_PT_daylight,
     GONIO_WORLD_PT_daylight_sky,

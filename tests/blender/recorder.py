@@ -2,6 +2,7 @@
 
 import importlib
 import sys
+from pathlib import Path
 
 import numpy as np
 
@@ -23,7 +24,7 @@ class Recorder:
 
     def __init__(self):
         self.meshes, self.instances, self.materials, self.textures, self.lights, self.cameras, self.measured = ([] for _ in range(7))
-        self.curves, self.points = [], []
+        self.curves, self.points, self.fields = [], [], []
         self.settings, self.calls, self.atmosphere = {}, [], {}
 
     def _put(self, what, thing, index):
@@ -102,6 +103,19 @@ class Recorder:
 
     def put_measured(self, measured, *, name, index=None):
         return self._put("measured", {"measured": measured, "name": name}, index)
+
+    def put_field(self, description, index=None, *, density, heat=None):
+        for source in (density, heat):
+            check(isinstance(source, tuple) or source is None or (source.ndim == 3 and source.dtype == np.float32), description)
+            check(not isinstance(source, tuple) or Path(source[0]).is_file(), source)
+        return self._put("fields", {**description, "density": density, "heat": heat}, index)
+
+    def put_field_box(self, field, index=None):
+        """The box of nothing, at the place of the field's array."""
+        check(0 <= field < len(self.fields), field)
+        place = np.eye(4)
+        place[:3] = np.array(self.fields[field]["to_world"]["columns"]).T
+        return self._put("meshes", {"field": field, "name": "box"}, index), place.tolist()
 
     def put_light(self, description, index=None):
         return self._put("lights", description, index)

@@ -7,6 +7,7 @@ import bpy
 from gonio.graph import Graph, renumber
 
 from .. import limits
+from ..evaluate import Pictures
 from . import (  # noqa: F401 (they register their nodes)
     bump,
     camera_nodes,
@@ -30,7 +31,7 @@ from . import (  # noqa: F401 (they register their nodes)
 from .closures import closure
 from .displacement import displace
 from .flatten import GREY, flatten
-from .interior import medium
+from .interior import medium, usual
 from .shader_outputs import shader_outputs
 from .sockets import active_output, input_socket
 from .translator import Translator
@@ -76,15 +77,35 @@ def _rest(t, end, material):
     inside = None
     if t.linked(end, "Volume", t.root):
         inside = medium(t, input_socket(end, "Volume"), t.root)
-        if inside is None:
+        if inside is None or not inside.is_even:
             t.tell("volume", end, t.root, "Volume")
-        elif not inside.exact:
+            inside = None
+        elif not inside.is_plain:
             t.tell("phase", end, t.root, "Volume")
         # As in Cycles a surface that comes to nothing counts as none.
         if not t.closures:
             t.closures.append({"weight": t.graph.scalar(1.0).input(), **closure(t.graph, "Transparent", base_color=1.0)})
     limits.of_material(material, t.report)
     return inside
+
+
+def translate_inside(material, images, report):
+    """The translator of what fills volume objects of a material, and the medium: None where there is none; no material is Cycles' usual one."""
+    tree = None if material is None else material.node_tree
+    if material is None:
+        t = Translator(None, None, images, report, has_grids=True)
+        return t, usual(t)
+    t = Translator(material, tree, Pictures(images, report), report, has_grids=True)
+    end = None if tree is None else active_output(tree, "Material")
+    if end is None or not t.linked(end, "Volume", t.root):
+        return t, None
+    inside = medium(t, input_socket(end, "Volume"), t.root)
+    if inside is None:
+        t.tell("volume shader", end, t.root, "Volume")
+        return t, usual(t)
+    if not inside.is_plain:
+        t.tell("phase", end, t.root, "Volume")
+    return t, inside
 
 
 def _described(t, material, outputs, displacement, inside):

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the Object, Particle, Point and Volume Info nodes know of a placement; the last two know nothing of meshes."""
+"""What the Object, Particle, Point and Volume Info nodes know of a placement; Point Info knows nothing of meshes."""
 
 from ..random_number import of_words
-from .inputs import COLOUR, INDEX, LOCATION, PARTICLE, RANDOM
+from .inputs import COLOUR, FACTOR, INDEX, LOCATION, PARTICLE, RANDOM
 from .registry import value_node
 
 
@@ -28,7 +28,16 @@ def particle_info(t, node, context, output):
     return t.graph.scalar(of_words(0, 0) / 0xFFFFFFFF if output.identifier == "Random" else 0.0)
 
 
-@value_node("ShaderNodePointInfo", "ShaderNodeVolumeInfo")
-def of_no_mesh(t, node, context, output):
-    """As in Cycles zero on whatever is no point or volume."""
+@value_node("ShaderNodePointInfo")
+def point_info(t, node, context, output):
+    """As in Cycles zero on whatever is no point."""
     return t.graph.scalar(0.0)
+
+
+@value_node("ShaderNodeVolumeInfo")
+def volume_info(t, node, context, output):
+    """The grids of Blender's own names; as in Cycles zero on whatever is no volume."""
+    if not t.has_grids:
+        return t.graph.scalar(0.0)
+    name = output.identifier.lower()
+    return t.primvar(name, kind="RGBA") if name == "color" else t.primvar(FACTOR + name, kind="VALUE")

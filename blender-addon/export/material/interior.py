@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Volume shaders as an even medium: what fills a closed mesh, or the world."""
+"""Volume shaders as coefficients: what fills a closed mesh, the world, or a volume with grids."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import pi
 
+from gonio.graph import Value
+
 from ...units import LUMENS_PER_WATT
+from .inputs import FACTOR
 from .phases import mean_cosine
-from .sockets import THROUGH, follow
+from .sockets import THROUGH, follow, input_socket
 
 # More volume shaders than these in one tree are not followed.
 MOST = 256
@@ -14,131 +17,177 @@ MOST = 256
 RADIANCE_PER_T4 = 5.670373e-8 * 1e-6 / pi
 
 
-class Uneven(Exception):
-    """What is more than an even medium."""
+class Unknown(Exception):
+    """A shader that is no volume's, or a phase function that varies."""
 
 
 @dataclass(frozen=True)
 class Medium:
-    """Coefficients a metre, R, G, B. `turned` is scattering times its mean cosine; `exact` says whether that tells all of the phase function."""
+    """Coefficients a metre, R, G, B, as values of a graph. `turned` is scattering times its mean cosine, all colours together; `cosines` are the
+    mean cosines there are; `exact` says whether that tells all of the phase function."""
 
-    absorption: tuple = (0.0,) * 3
-    scattering: tuple = (0.0,) * 3
-    emission: tuple = (0.0,) * 3
-    turned: float = 0.0
+    absorption: Value
+    scattering: Value
+    emission: Value
+    turned: Value
+    cosines: frozenset = frozenset()
     exact: bool = True
 
-    def described(self):
-        """As a material and a scene take it; empty where light goes through as if nothing were there."""
-        parts = {name: list(getattr(self, name)) for name in ("absorption", "scattering", "emission")}
-        if not any(any(part) for part in parts.values()):
-            return {}
-        return {**parts, "anisotropy": self.anisotropy}
+    @property
+    def is_even(self):
+        """Whether it is the same everywhere."""
+        return self.absorption.is_constant and self.scattering.is_constant and self.emission.is_constant
 
     @property
-    def anisotropy(self):
-        """The mean cosine of all that it scatters."""
-        whole = sum(self.scattering)
-        return self.turned / whole if whole > 0.0 else 0.0
+    def is_plain(self):
+        """Whether Henyey and Greenstein's function of one mean cosine tells all."""
+        return self.exact and len(self.cosines) <= 1
+
+    def described(self):
+        """An even one as a material and a scene take it; empty where light goes through as if nothing were there."""
+        parts = {name: [float(x) for x in getattr(self, name).constant[:3]] for name in ("absorption", "scattering", "emission")}
+        if not any(any(part) for part in parts.values()):
+            return {}
+        return {**parts, "anisotropy": anisotropy(parts["scattering"], self.turned.constant[0])}
 
     def scaled(self, share):
         """So much of it."""
-        part = {name: tuple(each * share for each in getattr(self, name)) for name in ("absorption", "scattering", "emission")}
-        return Medium(**part, turned=self.turned * share, exact=self.exact)
+        part = {name: getattr(self, name) * share for name in ("absorption", "scattering", "emission", "turned")}
+        return replace(self, **part)
 
     def plus(self, other):
-        """Both together; exact where both scatter alike, or one of them not at all."""
-        sums = {
-            name: tuple(a + b for a, b in zip(getattr(self, name), getattr(other, name), strict=True))
-            for name in ("absorption", "scattering", "emission")
-        }
-        alike = not any(self.scattering) or not any(other.scattering) or abs(self.anisotropy - other.anisotropy) < 1e-6
-        return Medium(**sums, turned=self.turned + other.turned, exact=self.exact and other.exact and alike)
+        """Both together."""
+        sums = {name: getattr(self, name) + getattr(other, name) for name in ("absorption", "scattering", "emission", "turned")}
+        return Medium(**sums, cosines=self.cosines | other.cosines, exact=self.exact and other.exact)
+
+
+def anisotropy(scattering, turned):
+    """The mean cosine of all that is scattered."""
+    whole = sum(scattering)
+    return float(turned / whole) if whole > 0.0 else 0.0
 
 
 def medium(t, socket, context):
-    """The medium that reaches a Volume socket; None where it varies from place to place."""
+    """The medium that reaches a Volume socket; None where it is none that is known."""
     try:
         return _sum(t, socket, context, [0])
-    except Uneven:
+    except Unknown:
         return None
+
+
+def usual(t):
+    """What Cycles fills a volume object without a material with: Principled Volume as it is made."""
+    density = t.primvar(FACTOR + "density", (1.0,) * 4, kind="VALUE").maximum(0.0)
+    grey = t.graph.colour((0.5, 0.5, 0.5)) * density
+    return _scattered(t, grey, 0.0, absorption=grey)
 
 
 def _sum(t, socket, context, seen):
     seen[0] += 1
     if seen[0] > MOST:
-        raise Uneven
+        raise Unknown
     found = follow(socket, context)
     if found is None or found.node is None or found.node.bl_idname in THROUGH:
-        return Medium()
+        return _medium(t)
     node, _, context, _ = found
     if node.bl_idname not in KINDS:
-        raise Uneven
+        raise Unknown
     t.saw(node, context)
     return KINDS[node.bl_idname](t, node, context, seen)
 
 
-def _even(t, node, context, name, default=0.0):
-    """A constant input, as three numbers."""
-    value = t.input(node, name, context, default)
-    if not value.is_constant:
-        raise Uneven
-    return tuple(value.as_kind("RGBA").constant[:3])
+def _medium(t, absorption=None, scattering=None, emission=None, turned=None, cosines=frozenset(), exact=True):
+    black = t.graph.colour((0.0, 0.0, 0.0))
+    return Medium(absorption or black, scattering or black, emission or black, turned or t.graph.scalar(0.0), cosines, exact)
+
+
+def _colour(t, node, context, name, default=0.0):
+    return t.input(node, name, context, default).as_kind("RGBA")
+
+
+def _above(value):
+    return value.maximum(0.0)
+
+
+def _density(t, node, context):
+    return _above(t.input(node, "Density", context))
 
 
 def _number(t, node, context, name, default=0.0):
-    return _even(t, node, context, name, default)[0]
+    """An input that has to be the same everywhere."""
+    value = t.input(node, name, context, default)
+    if value.is_constant:
+        return value.constant[0]
+    if not t.has_grids:
+        raise Unknown
+    t.tell("varying phase", node, context, f"{name} that varies")
+    return input_socket(node, name).default_value
 
 
-def _scattered(t, node, context, scattering, absorption=(0.0,) * 3, emission=(0.0,) * 3):
+def _scattered(t, scattering, cosine, absorption=None, emission=None, exact=True):
+    """A medium that scatters by this mean cosine."""
+    if scattering.is_zero():
+        return _medium(t, absorption, scattering, emission)
+    turned = scattering.dot((1.0, 1.0, 1.0)) * cosine
+    return _medium(t, absorption, scattering, emission, turned, frozenset({round(cosine, 6)}), exact)
+
+
+def _by_phase(t, node, context, scattering, absorption=None, emission=None):
     """A medium that scatters as a node says."""
     cosine, exact = mean_cosine(getattr(node, "phase", "HENYEY_GREENSTEIN"), lambda name: _number(t, node, context, name))
-    return Medium(absorption, scattering, emission, sum(scattering) * cosine, exact or not any(scattering))
+    return _scattered(t, scattering, cosine, absorption, emission, exact)
 
 
 def _absorption(t, node, context, seen):
-    colour, density = _even(t, node, context, "Color"), max(_number(t, node, context, "Density"), 0.0)
-    return Medium(absorption=tuple(max(1.0 - each, 0.0) * density for each in colour))
+    return _medium(t, absorption=_above(1.0 - _colour(t, node, context, "Color")) * _density(t, node, context))
 
 
 def _scatter(t, node, context, seen):
-    colour, density = _even(t, node, context, "Color"), max(_number(t, node, context, "Density"), 0.0)
-    return _scattered(t, node, context, tuple(max(each, 0.0) * density for each in colour))
+    return _by_phase(t, node, context, _above(_colour(t, node, context, "Color")) * _density(t, node, context))
 
 
 def _coefficients(t, node, context, seen):
     absorption, scattering, emission = (
-        tuple(max(each, 0.0) for each in _even(t, node, context, f"{name} Coefficients")) for name in ("Absorption", "Scatter", "Emission")
+        _above(_colour(t, node, context, f"{name} Coefficients")) for name in ("Absorption", "Scatter", "Emission")
     )
-    return _scattered(t, node, context, scattering, absorption, tuple(each * LUMENS_PER_WATT for each in emission))
+    return _by_phase(t, node, context, scattering, absorption, emission * LUMENS_PER_WATT)
 
 
 def _principled(t, node, context, seen):
-    """Meshes have no grids of density, colour and temperature: these count as 1, but for attributes that a mesh may have."""
-    density = max(_number(t, node, context, "Density"), 0.0)
-    colour, absorbed = _even(t, node, context, "Color"), _even(t, node, context, "Absorption Color")
-    scattering = tuple(max(each, 0.0) * density for each in colour)
-    pairs = zip(colour, absorbed, strict=True)
-    absorption = tuple(max(1.0 - each, 0.0) * max(1.0 - max(other, 0.0) ** 0.5, 0.0) * density for each, other in pairs)
-    strength = _number(t, node, context, "Emission Strength")
-    shining = [each * strength for each in _even(t, node, context, "Emission Color")]
-    intensity = _number(t, node, context, "Blackbody Intensity")
-    if intensity > 0.0:
-        temperature = max(_number(t, node, context, "Temperature"), 0.0)
-        glow = RADIANCE_PER_T4 * (1.0 + (temperature**4 - 1.0) * intensity)
-        hue = t.graph.add("Blackbody", t.graph.scalar(temperature), kind="RGBA")
-        if not hue.is_constant:
-            raise Uneven
-        tint = _even(t, node, context, "Blackbody Tint", 1.0)
-        shining = [each + glow * a * b for each, a, b in zip(shining, tint, hue.constant[:3], strict=True)]
-    emission = tuple(each * LUMENS_PER_WATT for each in shining)
-    cosine = min(max(_number(t, node, context, "Anisotropy"), -1.0), 1.0)
-    return Medium(absorption, scattering, emission, sum(scattering) * cosine)
+    """Volumes have grids of density, colour and temperature, which count as 1 where there are none of the name, and in meshes."""
+    density = _density(t, node, context) * _above(_grid(t, node, context, "Density Attribute"))
+    colour = _above(_colour(t, node, context, "Color") * _grid(t, node, context, "Color Attribute", "RGBA"))
+    absorbed = _above(_colour(t, node, context, "Absorption Color")).sqrt()
+    absorption = _above(1.0 - colour) * _above(1.0 - absorbed) * density
+    emission = _colour(t, node, context, "Emission Color") * t.input(node, "Emission Strength", context)
+    intensity = t.input(node, "Blackbody Intensity", context)
+    if not (intensity.is_constant and intensity.constant[0] <= 0.0):
+        emission = emission + _fire(t, node, context, intensity)
+    cosine = min(max(_number(t, node, context, "Anisotropy"), -0.999), 0.999)
+    return _scattered(t, colour * density, cosine, absorption, emission * LUMENS_PER_WATT)
+
+
+def _fire(t, node, context, intensity):
+    """What a blackbody sends, in Cycles' units of radiance."""
+    temperature = _above(t.input(node, "Temperature", context)) * _above(_grid(t, node, context, "Temperature Attribute"))
+    square = temperature * temperature
+    glow = (1.0 + (square * square - 1.0) * intensity) * RADIANCE_PER_T4
+    hue = t.graph.add("Blackbody", temperature, kind="RGBA")
+    return hue * glow * _colour(t, node, context, "Blackbody Tint", 1.0)
+
+
+def _grid(t, node, context, socket, kind="VALUE"):
+    """The grid that a node names, 1 where there is none."""
+    found = follow(input_socket(node, socket), context) if t.has_grids else None
+    name = found.output.default_value if found is not None and found.node is None else ""
+    if not name:
+        return t.graph.scalar(1.0)
+    return t.primvar(FACTOR + name if kind == "VALUE" else name, (1.0,) * 4, kind=kind)
 
 
 def _emission(t, node, context, seen):
-    strength = _number(t, node, context, "Strength")
-    return Medium(emission=tuple(max(each * strength, 0.0) * LUMENS_PER_WATT for each in _even(t, node, context, "Color")))
+    strength = t.input(node, "Strength", context)
+    return _medium(t, emission=_above(_colour(t, node, context, "Color") * strength) * LUMENS_PER_WATT)
 
 
 def _added(t, node, context, seen):
@@ -147,7 +196,7 @@ def _added(t, node, context, seen):
 
 
 def _mixed(t, node, context, seen):
-    share = min(max(_number(t, node, context, "Fac"), 0.0), 1.0)
+    share = t.input(node, "Fac", context).clamp(0.0, 1.0)
     first, second = (_sum(t, node.inputs[number], context, seen) for number in (1, 2))
     return first.scaled(1.0 - share).plus(second.scaled(share))
 

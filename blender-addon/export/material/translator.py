@@ -54,7 +54,10 @@ class Translator:
         is_camera_ray=True,
         version=None,
         surroundings=None,
+        has_grids=False,
     ):
+        # Whether it is of a volume object, whose attributes are grids.
+        self.has_grids = has_grids
         self.version = tuple(version or bpy.app.version)
         self.luminance = LUMINANCE[self.version >= (5, 0, 0)]
         self.owner, self.images, self.report, self.kind, self.measurements = owner, images, report, kind, measurements

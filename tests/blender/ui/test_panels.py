@@ -22,7 +22,7 @@ OTHERS = (
     # Of EEVEE, whose panel Cycles shows too.
     *("Material.*culling*", "Material.use_raytrace_refraction", "Material.surface_render_method", "Material.volume_intersection_method"),
     *("Material.*thickness*", "Material.max_vertex_displacement"),
-    *("RenderSettings.use_simplify_normals", "ViewLayer.pass_alpha_threshold", "ViewLayer.use_volumes", "ViewLayer.use_freestyle"),
+    *("RenderSettings.use_simplify_normals", "ViewLayer.pass_alpha_threshold", "ViewLayer.use_freestyle"),
 )
 
 
@@ -48,9 +48,22 @@ def test_what_cycles_shows_and_gonio_follows_can_be_reached():
         *(("CyclesVisibilitySettings", ray) for ray in ("camera", "diffuse", "glossy", "transmission")),
         *(("PointLight", "use_soft_falloff"), ("SpotLight", "use_soft_falloff"), ("Material", "use_transparent_shadow")),
         *(("World", "lightgroup"), ("WorldLighting", "distance"), ("Object", "shadow_terminator_geometry_offset")),
-        *(("ViewLayer", "use_strand"), ("ViewLayer", "use_motion_blur")),
+        *(("ViewLayer", "use_strand"), ("ViewLayer", "use_motion_blur"), ("ViewLayer", "use_volumes")),
     }
     assert wanted <= gonio, wanted - gonio
+
+
+@pytest.mark.blender
+def test_volume_objects_have_their_panels():
+    import bpy
+    from drawing import drawn_by
+
+    thing = bpy.data.objects.new("Cloud", bpy.data.volumes.new("Cloud"))
+    bpy.context.scene.collection.objects.link(thing)
+    bpy.context.view_layer.objects.active = thing
+    for name in ("DATA_PT_context_volume", "DATA_PT_volume_file", "DATA_PT_volume_grids"):
+        assert "GONIO" in getattr(bpy.types, name).COMPAT_ENGINES
+    assert drawn_by("GONIO", [bpy.types.GONIO_DATA_PT_volume_render]) == {("VolumeRender", "space")}
 
 
 @pytest.mark.blender

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The scene's volumes: fields of numbers, the boxes that hold them, and what fills these; one of each for each placement."""
+
+from dataclasses import replace
+
+import numpy as np
+from gonio.graph import Graph
+
+from ..gather import fill_random
+from ..instances import values_of
+from ..material.closures import closure
+from ..material.inputs import RANDOM
+from ..slots import Slots
+from ..transforms import columns
+from ..visibility import RAYS
+from .filling import Place, fill
+from .sources import Sources
+
+# The density of what nothing shows any more.
+NOTHING = np.zeros((1, 1, 1), dtype=np.float32)
+
+
+class Volumes:
+    """Numbers of the scene's fields, by what is in them and where; `meshes` and `materials` are the places of all of the scene's."""
+
+    def __init__(self, scene, meshes, materials, report):
+        self._scene, self._meshes, self._materials, self._report = scene, meshes, materials, report
+        self._fields, self._sources = Slots(), Sources()
+        # By the key of a field: the matrix that places its box.
+        self._boxes = {}
+        # (object, data, placement) -> (what it was made from, filling)
+        self._fillings, self._seen = {}, set()
+        # Materials of this pass, and of the pass before.
+        self._count = self._before = 0
+        self.any_written = self.any_shaded = False
+
+    def begin(self, keep_known):
+        """Starts a pass; without `keep_known` files and simulations are looked at again."""
+        self._fields.begin()
+        self.any_written = self.any_shaded = False
+        self._seen, self._before, self._count = set(), self._count, 0
+        self._sources.begin(keep_known)
+
+    def forget(self, uids):
+        """Has the grids of these objects or data-blocks read again."""
+        self._sources.forget(uids)
+
+    def of_group(self, group, inside, depsgraph):
+        """What a group shows: a group of one placement each, its box as a kind with its number, and its material's number. `inside` is a
+        translator, the medium and the material's name and index."""
+        if inside.medium is None:
+            return []
+        if "holdout" in group.visibility:
+            self._report.tell("volume holdout", "Object", group.name)
+        grids = self._sources.of_group(group)
+        if grids is None:
+            return []
+        wanted = frozenset(inside.translator.instance_primvars)
+        if RANDOM in wanted:
+            fill_random(depsgraph, [group])
+        values = values_of(group, wanted)
+        found = []
+        for number, matrix in enumerate(group.matrices):
+            if group.kept is None or group.kept[number]:
+                with self._report.guard("Object", group.name, "it is left out"):
+                    here = Place(matrix.astype(float), {name: value[number] for name, value in values.items()})
+                    filling = self._filling((group.object_uid, group.data_uid, number), inside, grids, here)
+                    if filling is not None:
+                        for limit, subject in filling.told:
+                            self._report.tell(limit, "Object", group.name, subject)
+                        found.append(self._shown(group, number, filling, here, inside))
+        return found
+
+    def _filling(self, key, inside, grids, here):
+        """What fills one placement, made anew where something of it is another."""
+        self._seen.add(key)
+        asked = (inside, grids, here.values_key(), here.matrix.tobytes())
+        before, filling = self._fillings.get(key, (None, None))
+        if before is None or before[:3] != asked[:3] or (filling is not None and filling.is_placed and before[3] != asked[3]):
+            filling = fill(inside.translator, inside.medium, grids, here)
+        self._fillings[key] = asked, filling
+        return filling
+
+    def _shown(self, group, number, filling, here, inside):
+        """Writes what is not there yet; gives the group of one placement, the box and the material."""
+        to_world = here.matrix @ filling.to_object
+        key = (filling.digest, to_world.tobytes())
+        field, is_new = self._fields.take(key)
+        if is_new:
+            described = {"origin": _origin(group.name), "to_world": columns(to_world), "glow": filling.glow, "hottest": filling.hottest}
+            sources = {"density": filling.density, "heat": filling.heat}
+            self._fields.place(lambda index: self._scene.put_field(described, index, **sources), field)
+            self.any_written = True
+        box, is_new_too = self._meshes.take(("box", key))
+        if is_new or is_new_too:
+            self._meshes.place(lambda index: self._keep_box(key, field, index), box)
+        material = self._material(inside, filling, field, here.density(group.data))
+        visibility = {ray: group.visibility[ray] for ray in RAYS}
+        placed = np.ascontiguousarray(self._boxes[key], dtype=np.float32)[None]
+        rows = [group.rows[number]]
+        return replace(group, rows=rows, matrices=placed, kept=None, is_itself=False, visibility=visibility), ("mesh", box), [material]
+
+    def _keep_box(self, key, field, index):
+        _, self._boxes[key] = self._scene.put_field_box(field, index)
+
+    def _material(self, inside, filling, field, density):
+        """The number of the material of one placement."""
+        number, _ = self._materials.take(("volume", self._count))
+        self._count += 1
+        described = _described(inside.name, {**filling.medium(density), "field": field}, inside.pass_index)
+        self.any_shaded |= self._materials.put(self._scene.put_material, described, number)
+        return number
+
+    def sweep(self):
+        """Frees the memory of what nothing shows any more."""
+        for number in range(self._count, self._before):
+            self._materials.put(self._scene.put_material, _described("nothing", {}, 0), self._materials.take(("volume", number))[0])
+        self._sources.sweep()
+        self._fillings = {key: known for key, known in self._fillings.items() if key in self._seen}
+        freed = self._fields.sweep()
+        if not freed:
+            return
+        left = self._fields.trim()
+        self._scene.truncate("fields", left)
+        for number in freed:
+            if number < left:
+                self._fields.place(lambda index: self._scene.put_field({"origin": _origin("nothing")}, index, density=NOTHING), number)
+        self._boxes = {key: box for key, box in self._boxes.items() if key in self._fields}
+
+
+def _origin(name):
+    return {"name": name, "file": ""}
+
+
+def _described(name, medium, pass_index):
+    """A material with nothing at its surface and a medium behind it."""
+    graph = Graph()
+    surface = {"weight": graph.scalar(1.0).input(), **closure(graph, "Transparent", base_color=1.0)}
+    inside = {"medium": medium} if medium else {}
+    return {"origin": _origin(name), "graph": {"nodes": []}, "closures": [surface], "pass_index": pass_index, **inside}

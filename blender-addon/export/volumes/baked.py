@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A volume's shader asked at every point of a lattice."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .lattice import AT_ONCE
+
+# More points than these are not asked.
+MOST = 1 << 25
+# How far colours may be from their mean before it is told, as one minus a squared correlation.
+APART = 1e-3
+
+
+@dataclass
+class Baked:
+    """Arrays of density and heat, which coefficients a metre multiply; whether these stand for others elsewhere."""
+
+    density: np.ndarray
+    heat: np.ndarray
+    absorption: np.ndarray
+    scattering: np.ndarray
+    turned: float
+    emission: np.ndarray
+    density_has_colours: bool
+    heat_has_colours: bool
+
+
+class _Sum:
+    """One number a point for several, and the mean of what each is of it."""
+
+    def __init__(self, count, width):
+        self.whole, self._parts = np.zeros(count, dtype=np.float32), np.zeros(width)
+        self._squares, self._with, self._whole = np.zeros(width), np.zeros(width), 0.0
+
+    def add(self, rows, parts):
+        whole = parts.sum(axis=1)
+        self.whole[rows] = whole
+        self._parts += parts.sum(axis=0)
+        self._squares += (parts * parts).sum(axis=0)
+        self._with += (parts * whole[:, None]).sum(axis=0)
+        self._whole += float((whole * whole).sum())
+
+    def of_one(self, total):
+        """A total in relation to the whole."""
+        whole = float(self._parts.sum())
+        return total / whole if whole > 0.0 else total * 0.0
+
+    def shares(self):
+        """What each is of the whole, in the mean."""
+        return self.of_one(self._parts)
+
+    def are_apart(self):
+        """Whether the shares are others elsewhere."""
+        both = self._squares * self._whole
+        return bool((1.0 - self._with[both > 0.0] ** 2 / both[both > 0.0] > APART).any())
+
+
+def bake(dense, shining, lattice, grids):
+    """Both over a lattice."""
+    arrays = {name: grids.dense(name).on(lattice) for name in dense.grids | shining.grids}
+    taken, sent, turned = _Sum(lattice.count, 6), _Sum(lattice.count, 3), 0.0
+    for start in range(0, lattice.count, AT_ONCE):
+        rows = np.arange(start, min(start + AT_ONCE, lattice.count))
+        found = dense.on(lattice, rows, arrays).astype(float)
+        taken.add(rows, np.maximum(found[:, :6], 0.0))
+        turned += float(found[:, 6].sum())
+        sent.add(rows, np.maximum(shining.on(lattice, rows, arrays).astype(float), 0.0))
+    shares = taken.shares()
+    shape = lattice.shape
+    return Baked(
+        taken.whole.reshape(shape),
+        sent.whole.reshape(shape),
+        shares[:3],
+        shares[3:],
+        taken.of_one(turned),
+        sent.shares(),
+        taken.are_apart(),
+        sent.are_apart(),
+    )
