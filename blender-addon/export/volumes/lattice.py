@@ -48,6 +48,11 @@ class Dense:
         lattice = np.stack(np.unravel_index(rows, self.shape), axis=1).astype(float)
         return lattice @ self.to_object[:3, :3].T + self.to_object[:3, 3]
 
+    def shares(self, points):
+        """Where places of the object's space are in the box of all that these fill, 0 to 1."""
+        inner = np.linalg.inv(self.to_object)
+        return (points @ inner[:3, :3].T + inner[:3, 3] + 0.5) / np.array(self.shape)
+
     def on(self, other):
         """Its numbers at the points of another lattice, trilinear."""
         if self.is_like(other):
