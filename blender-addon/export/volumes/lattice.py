@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 # Points that are looked at together.
-AT_ONCE = 1 << 20
+AT_ONCE = 1 << 17
 
 
 @dataclass(frozen=True, eq=False)

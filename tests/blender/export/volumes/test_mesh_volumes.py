@@ -191,7 +191,7 @@ def test_updates_write_what_changed_alone():
         vertex.co.x *= 2.0
     thing.data.update()
     update()
-    assert len(asked) == 3 and scene.fields[scene.materials[scene.instances[0]["materials"][0]]["medium"]["field"]]["density"].shape == (16, 8, 8)
+    assert len(asked) == 3 and scene.fields[scene.materials[scene.instances[0]["materials"][0]]["medium"]["field"]]["density"].shape == (16, 9, 9)
     bpy.data.objects.remove(thing)
     update()
     assert not scene.instances and not scene.fields
