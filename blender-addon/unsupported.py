@@ -35,11 +35,11 @@ OBJECTS = {
     ),
     "volume asks": Limit("Volume shaders that ask for more than grids, places, pictures and their object", "0 in its place"),
     "volume placements": Limit(
-        "More than 64 placements of a mesh whose volume varies from place to place", "those beyond are even, as dense as the first in the mean of its box"
+        "More than 64 placements of a mesh whose volume varies", "those beyond are even, as dense as the first is in the mean of its box"
     ),
     "mesh volumes": _untold(
-        "Volumes that vary in meshes: what is finer than a 128th of their longest edge, blurred by motion, or pushed beyond their box by displacement",
-        "smooth between these points; the mesh stands still at the frame; clear there",
+        "Volumes of meshes that vary: what is finer than a 128th of the longest edge, motion blur, what displacement pushes out of the box",
+        "smooth between points; the mesh stands still at the frame; clear there",
     ),
     "volume holdout": Limit("Volume objects as holdouts", "seen as others are"),
     "volume settings": _untold(

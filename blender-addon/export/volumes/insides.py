@@ -119,9 +119,9 @@ class Insides:
 
 def _part(group, numbers):
     """Some placements of a group."""
-    rows, kept = [group.rows[number] for number in numbers], None if group.kept is None or group.kept[numbers].all() else group.kept[numbers]
-    is_itself = group.is_itself and numbers[0] == 0
-    return replace(group, rows=rows, matrices=group.matrices[numbers], kept=kept, is_itself=is_itself, instancer={}, is_filled=True)
+    kept = None if group.kept is None or group.kept[numbers].all() else group.kept[numbers]
+    of_part = {"rows": [group.rows[number] for number in numbers], "matrices": group.matrices[numbers], "kept": kept, "instancer": {}}
+    return replace(group, **of_part, is_itself=group.is_itself and numbers[0] == 0, is_filled=True)
 
 
 def _content(inside):

@@ -13,7 +13,7 @@ def cube(material, size=2.0):
     return thing
 
 
-def by_place(output, name="Fog", scale=None):
+def by_place(output, name="Fog"):
     """A material whose volume is as dense as a coordinate along x: the material and the shader."""
     from clouds import filled
 
@@ -82,7 +82,7 @@ def test_the_surface_stays_and_other_slots_too():
     assert not lines
     first, second = (scene.materials[number] for number in scene.instances[0]["materials"])
     assert "field" in first["medium"] and "medium" not in second
-    assert [each["model"] for each in first["closures"]] == ["Dielectric"] or first["closures"][0]["model"] != "Transparent"
+    assert "Transparent" not in [each["model"] for each in first["closures"]]
 
 
 @pytest.mark.blender
@@ -103,7 +103,8 @@ def test_instances_share_numbers_and_have_fields_of_their_own():
     assert all(np.array_equal(field["density"], scene.fields[0]["density"]) for field in scene.fields)
     shown = [scene.materials[each["materials"][0]]["medium"]["field"] for each in scene.instances]
     for each, number in zip(scene.instances, shown, strict=True):
-        assert np.array(scene.fields[number]["to_world"]["columns"])[3][0] == pytest.approx(each["transforms"][0, 0, 3] - 1.002 + 2.004 / 32, abs=1e-4)
+        first = scene.fields[number]["to_world"]["columns"][3][0]
+        assert first == pytest.approx(each["transforms"][0, 0, 3] - 1.002 + 2.004 / 32, abs=1e-4)
 
 
 @pytest.mark.blender
@@ -191,7 +192,8 @@ def test_updates_write_what_changed_alone():
         vertex.co.x *= 2.0
     thing.data.update()
     update()
-    assert len(asked) == 3 and scene.fields[scene.materials[scene.instances[0]["materials"][0]]["medium"]["field"]]["density"].shape == (16, 9, 9)
+    medium = scene.materials[scene.instances[0]["materials"][0]]["medium"]
+    assert len(asked) == 3 and scene.fields[medium["field"]]["density"].shape == (16, 9, 9)
     bpy.data.objects.remove(thing)
     update()
     assert not scene.instances and not scene.fields
