@@ -29,11 +29,18 @@ def _untold(what, instead):
 
 OBJECTS = {
     "kind of object": Limit("Grease pencil", "left out"),
-    "volume colours": Limit("Colours of volume objects that vary from place to place", "the mean colour; the density varies"),
+    "volume colours": Limit("Colours of volumes that vary from place to place", "the mean colour; the density varies"),
     "volume size": Limit(
         "Densities of volume objects that are no multiple of one grid, over more than 2²⁵ voxels", "a multiple of that grid; they do not shine"
     ),
-    "volume asks": Limit("Shaders of volume objects that ask for more than grids, places, pictures and their object", "0 in its place"),
+    "volume asks": Limit("Volume shaders that ask for more than grids, places, pictures and their object", "0 in its place"),
+    "volume placements": Limit(
+        "More than 64 placements of a mesh whose volume varies", "those beyond are even, as dense as the first is in the mean of its box"
+    ),
+    "mesh volumes": _untold(
+        "Volumes of meshes that vary: what is finer than a 128th of the longest edge, motion blur, what displacement pushes out of the box",
+        "smooth between points; the mesh stands still at the frame; clear there",
+    ),
     "volume holdout": Limit("Volume objects as holdouts", "seen as others are"),
     "volume extent": _untold(
         "Emission of volume objects where their grids hold nothing", "it ends a voxel beyond what they hold; in Cycles with blocks of 8³ voxels"
@@ -125,8 +132,8 @@ WORLDS = {
 
 MATERIALS = {
     "volume shader": Limit("Shaders of volume objects that are no volume's", "Principled Volume as it is made"),
-    "varying phase": Limit("Phase functions of volume objects that vary from place to place", "the value of their socket"),
-    "volume": Limit("Volumes of meshes that vary from place to place", "the inside stays empty; without a surface, rays pass"),
+    "varying phase": Limit("Phase functions of volumes that vary from place to place", "the value of their socket"),
+    "volume": Limit("Volume shaders of meshes that are no volume's", "the inside stays empty; without a surface, rays pass"),
     "phase": Limit(
         "Phase functions beyond Henyey and Greenstein's, and sums of volumes of several", "Henyey and Greenstein's of the same mean cosine"
     ),

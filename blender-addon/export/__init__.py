@@ -22,6 +22,7 @@ from .slots import Slots
 from .surroundings import Surroundings
 from .transforms import columns
 from .volumes import Volumes
+from .volumes.insides import Insides
 
 __all__ = ["Changes", "Exporter"]
 
@@ -39,6 +40,7 @@ class Exporter:
         self._materials = Materials(self.scene, materials, self._images, Measurements(self.scene, self._measured), report)
         self._meshes = Meshes(self.scene, meshes, report)
         self._volumes = Volumes(self.scene, meshes, materials, report)
+        self._insides = Insides(self._volumes, report)
         self._fibres = Fibres(self.scene, report)
         self._instances = Instances(self.scene, report)
         self._lights = Lights(self.scene, self._images, report)
@@ -123,6 +125,7 @@ class Exporter:
             self._meshes.forget(found.geometry)
             self._fibres.forget(found.geometry)
             self._volumes.forget(found.geometry)
+            self._insides.forget(found.geometry)
         if found.every_material:
             self._materials.forget_all()
         for uid in found.materials:
@@ -136,7 +139,7 @@ class Exporter:
         if found.world or found.placements:
             limits.of_scene(depsgraph, self.report)
         if found.world or found.placements or found.moved:
-            changes.shading |= self._materials.look_around(self._surroundings(depsgraph), depsgraph)
+            self._look_around(depsgraph, changes)
         self._lights.write()
         changes.lights = self._lights.any_written
         changes.world = found.world and self._lights.any_written
@@ -207,6 +210,7 @@ class Exporter:
         self._meshes.begin(keep_known)
         self._fibres.begin(keep_known)
         self._volumes.begin(keep_known)
+        self._insides.begin(keep_known)
         self._materials.begin(self._surroundings(depsgraph))
         # All objects are looked at anew.
         self.report.forget_all("Object")
@@ -226,6 +230,11 @@ class Exporter:
                     keys += [(key, number) for number in range(len(filled))]
                 elif group.kind not in ("LIGHT", VOLUME) and (layer.use_strand if group.kind in FIBRES else layer.use_solid):
                     materials = self._materials.of_slots(group.slots, walk.materials, override)
+                    if materials.uneven and group.kind not in FIBRES:
+                        filled = self._filled(group, materials, depsgraph)
+                        entries += [(*each, materials.placed) for each in filled]
+                        keys += [(key, number) for number in range(len(filled))]
+                        continue
                     for shown, numbers in self._surfaces(group, materials, depsgraph):
                         entries.append((group, shown, numbers, materials.placed))
                         keys.append(key)
@@ -242,9 +251,18 @@ class Exporter:
         self._meshes.sweep()
         self._fibres.sweep()
         self._volumes.sweep()
+        self._insides.sweep()
         changes.geometry |= self._meshes.any_written or self._fibres.any_written or self._volumes.any_written
         changes.shading |= self._materials.any_written or self._volumes.any_shaded
         changes.transforms |= self._instances.any_written
+
+    def _filled(self, group, materials, depsgraph):
+        """The placements of a mesh whose inside varies, one by one."""
+        mesh = self._meshes.number(group, materials.primvars)
+        if mesh is None:
+            return []
+        described = {slot: self._materials.description(materials.numbers[slot]) for slot in materials.uneven}
+        return [(part, ("mesh", mesh), numbers) for part, numbers in self._insides.of_group(group, materials, described, depsgraph)]
 
     def _surfaces(self, group, materials, depsgraph):
         """What a group shows: kinds of surfaces with their numbers, and the materials of each."""
@@ -276,12 +294,17 @@ class Exporter:
             return False
         self.scene.put_camera(description, index=None if self._camera is None else 0)
         self._camera = description
-        surroundings = self._surroundings(depsgraph)
-        self._materials.look_around(surroundings, depsgraph)
-        if not surroundings.answers(self._world_asked):
+        self._look_around(depsgraph, Changes())
+        if not self._surroundings(depsgraph).answers(self._world_asked):
             self._world(depsgraph)
             self._lights.write()
         return True
+
+    def _look_around(self, depsgraph, changes):
+        """Materials that asked for what is otherwise now, with what fills meshes by them."""
+        changes.shading |= self._materials.look_around(self._surroundings(depsgraph), depsgraph)
+        if self._materials.is_inside_stale:
+            self._placements(depsgraph, changes, keep_known=True)
 
     def _surroundings(self, depsgraph):
         return Surroundings(self._camera, depsgraph, self._part)

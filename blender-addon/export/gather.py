@@ -54,6 +54,8 @@ class Group:
     dicing: tuple | None = None
     # The group of the hair of its particle systems, if there is any.
     hair: "Group | None" = None
+    # Whether a field that goes by its place fills it.
+    is_filled: bool = False
 
 
 class Walk:

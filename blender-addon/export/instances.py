@@ -109,7 +109,8 @@ class Instances:
 
     def _make(self, made, key, group, shown, materials, wanted):
         """Appends the entry of a group, if anything of it can be shown."""
-        is_single = group.is_itself and len(group.rows) == 1 and group.kept is None and group.object_uid not in self._single
+        is_alone = group.is_itself and len(group.rows) == 1 and group.kept is None and not group.is_filled
+        is_single = is_alone and group.object_uid not in self._single
         self._single[group.object_uid] = None
         if group.kept is not None and not self._leave_out(group):
             return

@@ -17,6 +17,8 @@ class Slotted:
     numbers: list
     primvars: frozenset
     placed: frozenset
+    # By the number of a slot: what fills meshes of it, where that varies.
+    uneven: dict
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -35,6 +37,8 @@ class Materials:
     def __init__(self, scene, slots, images, measurements, report):
         self._scene, self._slots, self._images, self._measurements, self._report = scene, slots, images, measurements, report
         self._translated, self._insides, self.any_written = {}, {}, False
+        # By session_uid: what fills meshes, where it varies; and whether it is to be asked anew for what is around.
+        self._uneven, self.is_inside_stale = {}, False
         # The names of materials that this pass shows, by session_uid.
         self._shown, self._before = {}, {}
         # Within a pass: many objects have the same slots.
@@ -58,16 +62,18 @@ class Materials:
 
     def forget_all(self):
         """Has every material translated again."""
-        self._translated, self._insides = {}, {}
+        self._translated, self._insides, self._uneven = {}, {}, {}
 
     def forget(self, uid):
         """Has one material translated again."""
         self._translated.pop(uid, None)
         self._insides.pop(uid, None)
+        self._uneven.pop(uid, None)
 
     def look_around(self, surroundings, depsgraph):
         """Writes the materials again that asked for what is otherwise now; gives whether there are any."""
         stale = [uid for uid, translated in self._translated.items() if not surroundings.answers(translated.asked)]
+        self.is_inside_stale = any(self._uneven.pop(uid, None) is not None for uid in stale)
         if not stale:
             return False
         self._surroundings = surroundings
@@ -84,7 +90,9 @@ class Materials:
             shown = [override] * max(1, len(slots)) if override is not None else [materials[uid] for uid in slots] or [None]
             numbers, translated = [self._number(material) for material in shown], [self._translated[_uid(material)] for material in shown]
             primvars = frozenset().union(*(each.primvars for each in translated))
-            self._slotted[slots] = Slotted(numbers, primvars, frozenset().union(*(each.instance_primvars for each in translated)))
+            placed = frozenset().union(*(each.instance_primvars for each in translated))
+            uneven = {slot: self._inside_of_meshes(shown[slot]) for slot, each in enumerate(translated) if each.is_uneven}
+            self._slotted[slots] = Slotted(numbers, primvars, placed, uneven)
         return self._slotted[slots]
 
     def inside(self, slots, materials, override):
@@ -102,6 +110,13 @@ class Materials:
             named = ("volume", 0) if material is None else (material.name, material.pass_index)
             self._insides[uid] = Inside(t, medium, *named)
         return self._insides[uid]
+
+    def _inside_of_meshes(self, material):
+        uid = _uid(material)
+        if uid not in self._uneven:
+            found = translate_inside(material, self._images, self._report, has_grids=False, surroundings=self._surroundings)
+            self._uneven[uid] = Inside(*found, material.name, material.pass_index)
+        return self._uneven[uid]
 
     def _forget_lines(self, material, uid):
         """What was said of a material, before the first of its translations."""

@@ -46,6 +46,8 @@ class Translated:
     instance_primvars: set = field(default_factory=set)
     # What it asked of the scene around it, and the answers.
     asked: dict = field(default_factory=dict)
+    # Whether its inside varies, which is no part of the description (`translate_inside`).
+    is_uneven: bool = False
 
 
 def translate(material, images, measurements, report, version=None, shader_aovs=frozenset(), surroundings=None):
@@ -65,11 +67,12 @@ def translate(material, images, measurements, report, version=None, shader_aovs=
         flatten(t, input_socket(end, "Surface"), t.root, t.graph.scalar(1.0))
         inside = _rest(t, end, material)
     outputs = shader_outputs(t, shader_aovs) if shader_aovs else []
-    described = _described(t, material, outputs, displacement, inside)
+    is_uneven = inside is not None and not inside.is_even
+    described = _described(t, material, outputs, displacement, None if is_uneven else inside)
     if not material.use_transparent_shadow and not (end is not None and t.linked(end, "Volume", t.root)):
         # Cycles lets light into volumes always.
         described["transparent_shadows"] = False
-    return Translated(described, t.primvars, t.instance_primvars, t.asked)
+    return Translated(described, t.primvars, t.instance_primvars, t.asked, is_uneven)
 
 
 def _rest(t, end, material):
@@ -77,9 +80,8 @@ def _rest(t, end, material):
     inside = None
     if t.linked(end, "Volume", t.root):
         inside = medium(t, input_socket(end, "Volume"), t.root)
-        if inside is None or not inside.is_even:
+        if inside is None:
             t.tell("volume", end, t.root, "Volume")
-            inside = None
         elif not inside.is_plain:
             t.tell("phase", end, t.root, "Volume")
         # As in Cycles a surface that comes to nothing counts as none.
@@ -89,13 +91,14 @@ def _rest(t, end, material):
     return inside
 
 
-def translate_inside(material, images, report):
-    """The translator of what fills volume objects of a material, and the medium: None where there is none; no material is Cycles' usual one."""
+def translate_inside(material, images, report, *, has_grids=True, surroundings=None):
+    """The translator of what fills volume objects of a material, or meshes, which have no grids, and the medium: None where there is none; no
+    material is Cycles' usual one."""
     tree = None if material is None else material.node_tree
     if material is None:
         t = Translator(None, None, images, report, has_grids=True)
         return t, usual(t)
-    t = Translator(material, tree, Pictures(images, report), report, has_grids=True)
+    t = Translator(material, tree, Pictures(images, report), report, has_grids=has_grids, surroundings=surroundings)
     end = None if tree is None else active_output(tree, "Material")
     if end is None or not t.linked(end, "Volume", t.root):
         return t, None

@@ -118,7 +118,7 @@ def _number(t, node, context, name, default=0.0):
     value = t.input(node, name, context, default)
     if value.is_constant:
         return value.constant[0]
-    if not t.has_grids:
+    if t.is_world:
         raise Unknown
     t.tell("varying phase", node, context, f"{name} that varies")
     return input_socket(node, name).default_value

@@ -81,20 +81,26 @@ class Volumes:
         self._fillings[key] = asked, filling
         return filling
 
-    def _shown(self, group, number, filling, here, inside):
-        """Writes what is not there yet; gives the group of one placement, the box and the material."""
-        to_world = here.matrix @ filling.to_object
+    def field(self, name, filling, matrix):
+        """The number of a field at a place, written if it is not there yet; its key, and whether it was written."""
+        to_world = matrix @ filling.to_object
         key = (filling.digest, to_world.tobytes())
         field, is_new = self._fields.take(key)
         if is_new:
-            described = {"origin": _origin(group.name), "to_world": columns(to_world), "glow": filling.glow, "hottest": filling.hottest}
+            described = {"origin": _origin(name), "to_world": columns(to_world), "glow": filling.glow, "hottest": filling.hottest}
             sources = {"density": filling.density, "heat": filling.heat}
             self._fields.place(lambda index: self._scene.put_field(described, index, **sources), field)
             self.any_written = True
+        return field, key, is_new
+
+    def _shown(self, group, number, filling, here, inside):
+        """Writes what is not there yet; gives the group of one placement, the box and the material."""
+        field, key, is_new = self.field(group.name, filling, here.matrix)
         box, is_new_too = self._meshes.take(("box", key))
         if is_new or is_new_too:
             self._meshes.place(lambda index: self._keep_box(key, field, index), box)
-        material = self._material(inside, filling, field, here.density(group.data))
+        medium = {**filling.medium(here.density(group.data)), "field": field}
+        material = self.material(_described(inside.name, medium, inside.pass_index))
         visibility = {ray: group.visibility[ray] for ray in RAYS}
         placed = np.ascontiguousarray(self._boxes[key], dtype=np.float32)[None]
         rows = [group.rows[number]]
@@ -103,11 +109,10 @@ class Volumes:
     def _keep_box(self, key, field, index):
         _, self._boxes[key] = self._scene.put_field_box(field, index)
 
-    def _material(self, inside, filling, field, density):
+    def material(self, described):
         """The number of the material of one placement."""
         number, _ = self._materials.take(("volume", self._count))
         self._count += 1
-        described = _described(inside.name, {**filling.medium(density), "field": field}, inside.pass_index)
         self.any_shaded |= self._materials.put(self._scene.put_material, described, number)
         return number
 

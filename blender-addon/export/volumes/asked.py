@@ -89,9 +89,7 @@ class Asked:
         return np.repeat(found[:, :3].mean(axis=1, keepdims=True), 4, axis=1) if name.startswith(FACTOR) else found
 
     def _places(self, points, lattice):
-        inner = np.linalg.inv(lattice.to_object)
-        shares = (points @ inner[:3, :3].T + inner[:3, 3] + 0.5) / np.array(lattice.shape)
-        matrix = self._place.matrix
+        shares, matrix = lattice.shares(points), self._place.matrix
         return {"Position": _padded(points @ matrix[:3, :3].T + matrix[:3, 3]), POSITION: _padded(points), GENERATED: _padded(shares)}
 
     def _carried(self, fields, value):

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 # Points that are looked at together.
-AT_ONCE = 1 << 20
+AT_ONCE = 1 << 17
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,6 +40,11 @@ class Dense:
         """Places of some points, (N, 3), in the object's space."""
         lattice = np.stack(np.unravel_index(rows, self.shape), axis=1).astype(float)
         return lattice @ self.to_object[:3, :3].T + self.to_object[:3, 3]
+
+    def shares(self, points):
+        """Where places of the object's space are in the box of all that these fill, 0 to 1."""
+        inner = np.linalg.inv(self.to_object)
+        return (points @ inner[:3, :3].T + inner[:3, 3] + 0.5) / np.array(self.shape)
 
     def on(self, other):
         """Its numbers at the points of another lattice, trilinear."""

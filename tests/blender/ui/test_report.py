@@ -37,7 +37,7 @@ def test_equal_messages_are_counted(tmp_path):
     report.add("Object", "D", "dark", severity="ERROR")
     assert [(line.text, line.count) for line in report.counted] == [
         ("D: dark", 1),
-        ("A and 2 more: Volumes of meshes that vary from place to place: not supported; the inside stays empty; without a surface, rays pass", 3),
+        ("A and 2 more: Volume shaders of meshes that are no volume's: not supported; the inside stays empty; without a surface, rays pass", 3),
     ]
     assert report.summary() == "D: dark, and 1 more in the Gonio Report panel"
     report.forget("Material", "A")
