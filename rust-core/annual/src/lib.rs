@@ -1,0 +1,28 @@
+//! A year of daylight without ray tracing: the sky's matrix of a weather file, its product with daylight coefficients, and what practice asks of it.
+#![forbid(unsafe_code)]
+
+mod division;
+mod error;
+pub mod sky;
+mod sun;
+mod year;
+
+pub use division::{Division, FINEST, Patch};
+pub use error::AnnualError;
+pub use sun::{SUN_ANGLE_DEG, Sun};
+pub use year::{Step, USUAL_DEW_POINT_C, Year};
+
+use gonio_formats::FormatError;
+use std::{fs::File, io::Read, path::Path};
+
+/// The bytes of a file of at most `longest`.
+fn read_file(path: &Path, longest: u64, what: &str) -> Result<Vec<u8>, AnnualError> {
+    let refused = |source| AnnualError::File { path: path.into(), source };
+    let file = File::open(path).map_err(refused)?;
+    let mut bytes = Vec::new();
+    file.take(longest + 1).read_to_end(&mut bytes).map_err(refused)?;
+    if bytes.len() as u64 > longest {
+        return Err(AnnualError::content(path, FormatError::whole(format!("more than {longest} bytes: no {what}"))));
+    }
+    Ok(bytes)
+}
