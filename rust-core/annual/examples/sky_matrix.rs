@@ -21,7 +21,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     let year = Year::read(Path::new(weather))?;
     year.doubts.iter().for_each(|doubt| eprintln!("{doubt}"));
-    let columns = SkyMatrix::new(&year, options)?.columns(0..year.steps.len(), 2);
+    let columns = SkyMatrix::new(&year, options)?.columns(&(0..year.steps.len()).collect::<Vec<_>>(), 2);
     let bytes: Vec<u8> = columns.iter().flat_map(|value| value.to_le_bytes()).collect();
     std::fs::File::create(to)?.write_all(&bytes)?;
     Ok(())

@@ -36,8 +36,7 @@ pub(crate) fn sun(day_of_year: u32, hour: f64, latitude_deg: f64, longitude_deg:
     let solar_hour = hour + adjusted + longitude_deg / 15.0 - utc_offset_h;
     let declination = 0.4093 * (TAU / 365.0 * (day - 81.0)).sin();
     let (sin_hour, cos_hour) = (solar_hour * PI / 12.0).sin_cos();
-    let ((sin_latitude, cos_latitude), (sin_declination, cos_declination)) =
-        (latitude_deg.to_radians().sin_cos(), declination.sin_cos());
+    let ((sin_latitude, cos_latitude), (sin_declination, cos_declination)) = (latitude_deg.to_radians().sin_cos(), declination.sin_cos());
     let sine = sin_latitude * sin_declination - cos_latitude * cos_declination * cos_hour;
     let south = -cos_latitude * sin_declination - sin_latitude * cos_declination * cos_hour;
     Sun { altitude: sine.clamp(-1.0, 1.0).asin(), azimuth: PI - (cos_declination * sin_hour).atan2(south) }

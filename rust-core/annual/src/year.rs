@@ -142,7 +142,9 @@ fn check(hour: &Hour, index: usize, a_day: usize, has_leap_day: bool) -> std::re
     if day != wanted || (hour.hour - middle).abs() > 12.5 / a_day as f64 {
         let (month, date) = date(wanted, has_leap_day);
         let expected = shown(month, date, middle);
-        return Err(format!("the record is of {found}, expected {expected}: annual daylight needs every hour of a year, from January on, once"));
+        return Err(format!(
+            "the record is of {found}, expected {expected}: annual daylight needs every hour of a year, from January on, once"
+        ));
     }
     Ok(day)
 }

@@ -87,10 +87,7 @@ impl Air {
     }
 
     fn efficacies(&self, clearness: &Clearness) -> [f64; 2] {
-        [
-            direct_efficacy(clearness, self.zenith_angle, self.dew_point_c),
-            diffuse_efficacy(clearness, self.zenith_angle, self.dew_point_c),
-        ]
+        [direct_efficacy(clearness, self.zenith_angle, self.dew_point_c), diffuse_efficacy(clearness, self.zenith_angle, self.dew_point_c)]
     }
 
     /// Irradiances whose light is `direct` and `diffuse` lx, by the search of `gendaymtx`.
@@ -107,10 +104,7 @@ impl Air {
             before = found;
             let [of_sun, of_sky] = self.efficacies(&clearness);
             // Where the sun's efficacy is none, the efficacy itself is taken for the irradiance, as Radiance has it.
-            found = Irradiance {
-                direct_normal: if of_sun > 0.1 { direct / of_sun } else { of_sun },
-                diffuse_horizontal: diffuse / of_sky,
-            };
+            found = Irradiance { direct_normal: if of_sun > 0.1 { direct / of_sun } else { of_sun }, diffuse_horizontal: diffuse / of_sky };
             clearness = self.clearness(&found);
         }
         (found, clearness)

@@ -12,7 +12,7 @@ use crate::{
 };
 use conditions::conditions;
 use gonio_sky::{CIE_TYPES, CieSky, PerezSky};
-use std::{f64::consts::PI, ops::Range, thread};
+use std::{f64::consts::PI, thread};
 
 /// What numbers stand in a matrix.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -135,13 +135,13 @@ impl<'a> SkyMatrix<'a> {
     }
 
     /// Columns of some steps, one after the other, on some threads: element `[step][patch]`.
-    pub fn columns(&self, steps: Range<usize>, threads: usize) -> Vec<f32> {
+    pub fn columns(&self, steps: &[usize], threads: usize) -> Vec<f32> {
         let patches = self.centres.len();
         let mut columns = vec![0.0; steps.len() * patches];
         let share = steps.len().div_ceil(threads.max(1)).max(1);
         thread::scope(|scope| {
-            for (part, first) in columns.chunks_mut(share * patches).zip((steps.start..).step_by(share)) {
-                scope.spawn(move || part.chunks_exact_mut(patches).zip(first..).for_each(|(column, step)| self.fill(step, column)));
+            for (part, steps) in columns.chunks_mut(share * patches).zip(steps.chunks(share)) {
+                scope.spawn(move || part.chunks_exact_mut(patches).zip(steps).for_each(|(column, step)| self.fill(*step, column)));
             }
         });
         columns
