@@ -19,7 +19,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     if let Some(degrees) = rest.get(1) {
         options.rotation_deg = degrees.parse()?;
     }
-    let year = Year::read(Path::new(weather))?;
+    let year = Year::read(Path::new(weather), &std::fs::read(weather)?)?;
     year.doubts.iter().for_each(|doubt| eprintln!("{doubt}"));
     let columns = SkyMatrix::new(&year, options)?.columns(&(0..year.steps.len()).collect::<Vec<_>>(), 2);
     let bytes: Vec<u8> = columns.iter().flat_map(|value| value.to_le_bytes()).collect();

@@ -17,14 +17,6 @@ pub enum AnnualError {
         /// What was found and what was expected.
         error: FormatError,
     },
-    /// The operating system refused a file.
-    #[error("{}: {source}", path.display())]
-    File {
-        /// The file.
-        path: PathBuf,
-        /// What the system said.
-        source: std::io::Error,
-    },
     /// Inputs that do not fit each other, or a setting out of its range.
     #[error("{name}: {problem}")]
     Setting {

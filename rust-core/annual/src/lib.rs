@@ -9,6 +9,7 @@
 
 mod coefficients;
 mod daylight_factor;
+mod dew_point;
 mod division;
 mod error;
 mod evaluate;
@@ -22,6 +23,7 @@ mod tests;
 mod year;
 
 pub use coefficients::{Coefficients, to_npy};
+pub use dew_point::USUAL_DEW_POINT_C;
 pub use division::{Division, FINEST, Patch};
 pub use error::AnnualError;
 pub use evaluate::{Blinds, Chunk, Group, Settings, evaluate};
@@ -29,19 +31,4 @@ pub use metrics::{En17037, Grid, GridErrors, Level, Method, Point};
 pub use product::Panels;
 pub use schedule::Schedule;
 pub use sun::{SUN_ANGLE_DEG, Sun};
-pub use year::{Step, USUAL_DEW_POINT_C, Year};
-
-use gonio_formats::FormatError;
-use std::{fs::File, io::Read, path::Path};
-
-/// The bytes of a file of at most `longest`.
-fn read_file(path: &Path, longest: u64, what: &str) -> Result<Vec<u8>, AnnualError> {
-    let refused = |source| AnnualError::File { path: path.into(), source };
-    let file = File::open(path).map_err(refused)?;
-    let mut bytes = Vec::new();
-    file.take(longest + 1).read_to_end(&mut bytes).map_err(refused)?;
-    if bytes.len() as u64 > longest {
-        return Err(AnnualError::content(path, FormatError::whole(format!("more than {longest} bytes: no {what}"))));
-    }
-    Ok(bytes)
-}
+pub use year::{Step, Year};

@@ -7,9 +7,6 @@ use crate::{
 use gonio_formats::FormatError;
 use std::path::Path;
 
-/// The longest file of a schedule in bytes.
-const LONGEST: u64 = 1 << 24;
-
 /// The steps of a year in which a room is used.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Schedule {
@@ -28,14 +25,13 @@ impl Schedule {
         Self { used: year.steps.iter().map(|step| from <= step.hour && step.hour < to).collect() }.checked()
     }
 
-    /// Reads 0 or 1 for each step, the first number of each line; lines that begin with `#` and empty ones are left out.
+    /// Reads a file's bytes: 0 or 1 for each step, the first number of each line; lines that begin with `#` and empty ones are left out.
     ///
     /// # Errors
-    /// What the system refuses, other words, with their line, and another count than the year's steps.
-    pub fn read(path: &Path, year: &Year) -> Result<Self> {
-        let bytes = crate::read_file(path, LONGEST, "schedule")?;
+    /// Other words, with their line, and another count than the year's steps.
+    pub fn read(path: &Path, bytes: &[u8], year: &Year) -> Result<Self> {
         let wrong = |error| AnnualError::content(path, error);
-        let text = std::str::from_utf8(&bytes).map_err(|_| wrong(FormatError::whole("not a text in UTF-8: no schedule")))?;
+        let text = std::str::from_utf8(bytes).map_err(|_| wrong(FormatError::whole("not a text in UTF-8: no schedule")))?;
         let mut used = Vec::with_capacity(year.steps.len());
         for (line, text) in (1..).zip(text.lines()).filter(|(_, text)| !text.trim().is_empty() && !text.starts_with('#')) {
             let word = text.split([',', ';', ' ', '\t']).next().unwrap_or_default();

@@ -1,6 +1,7 @@
 //! A year of weather, step by step, with the sun's place.
 
 use crate::{
+    dew_point::DewPoints,
     error::{AnnualError, Result},
     sun::{Sun, day_of_year, sun},
 };
@@ -10,10 +11,6 @@ use gonio_formats::{
 };
 use std::path::Path;
 
-/// The longest weather file in bytes.
-const LONGEST: u64 = 1 << 30;
-/// Dew point where a file tells none, °C: `gendaymtx`'s.
-pub const USUAL_DEW_POINT_C: f64 = 11.0;
 /// Direct light from below the horizon that is worth a word: W/m².
 const BRIGHT: f64 = 20.0;
 /// The same in lx.
@@ -34,7 +31,7 @@ pub struct Step {
     pub direct: f64,
     /// Of the sky on a level surface, as [`Year::quantities`] says.
     pub diffuse: f64,
-    /// Mean dew point of this step and the two before it, °C; [`USUAL_DEW_POINT_C`] where the file tells none.
+    /// Mean dew point of this step and the two before it, °C; [`crate::USUAL_DEW_POINT_C`] where the file tells none.
     pub dew_point_c: f64,
     /// The sun in the middle of the interval.
     pub sun: Sun,
@@ -60,14 +57,13 @@ pub struct Year {
 }
 
 impl Year {
-    /// Reads an EPW or WEA file of a whole year.
+    /// Reads the bytes of an EPW or WEA file of a whole year; errors name its path.
     ///
     /// # Errors
-    /// What the system refuses, what is no weather, and what is missing of the year, with its line.
-    pub fn read(path: &Path) -> Result<Self> {
-        let bytes = crate::read_file(path, LONGEST, "weather file")?;
-        let read = weather::read(&bytes).map_err(|error| AnnualError::content(path, error))?;
-        let lines = record_lines(&bytes, read.hours.len());
+    /// What is no weather, and what is missing of the year, with its line.
+    pub fn read(path: &Path, bytes: &[u8]) -> Result<Self> {
+        let read = weather::read(bytes).map_err(|error| AnnualError::content(path, error))?;
+        let lines = record_lines(bytes, read.hours.len());
         Self::new(&read, &lines).map_err(|error| AnnualError::content(path, error))
     }
 
@@ -167,26 +163,6 @@ fn record_lines(bytes: &[u8], count: usize) -> Vec<u64> {
     let text = String::from_utf8_lossy(bytes);
     let filled: Vec<u64> = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty()).map(|(number, _)| number).collect();
     filled[filled.len().saturating_sub(count)..].to_vec()
-}
-
-/// The mean over three records that `gendaymtx` takes.
-#[derive(Default)]
-struct DewPoints {
-    before: Option<[f64; 2]>,
-    last: Option<f64>,
-}
-
-impl DewPoints {
-    fn mean(&mut self, found: Option<f64>) -> f64 {
-        if let Some(value) = found {
-            let [first, second] = self.before.unwrap_or([value; 2]);
-            self.last = Some((first + second + value) / 3.0);
-            self.before = Some([second, value]);
-        } else {
-            self.before = None;
-        }
-        self.last.unwrap_or(USUAL_DEW_POINT_C)
-    }
 }
 
 fn doubts(steps: &[Step], lines: &[u64], quantities: Quantities) -> Vec<String> {

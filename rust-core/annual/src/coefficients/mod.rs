@@ -9,8 +9,6 @@ use crate::error::{AnnualError, Result};
 use gonio_formats::FormatError;
 use std::path::{Path, PathBuf};
 
-/// The longest file in bytes.
-const LONGEST: u64 = 1 << 34;
 /// Photopic weights of Radiance's red, green and blue (`color.h`); they make one.
 const PHOTOPIC: [f64; 3] = [0.265_074_126, 0.670_114_631, 0.064_811_243];
 
@@ -28,14 +26,13 @@ pub struct Coefficients {
 }
 
 impl Coefficients {
-    /// Reads a Radiance matrix (`rfluxmtx`, `rcontrib`: text, float or double, one or three components) or a NumPy array of points × columns, or
+    /// Reads the bytes of a Radiance matrix (`rfluxmtx`, `rcontrib`: text, float or double, one or three components) or a NumPy array of points × columns, or
     /// of blocks × points × columns. The content decides, not the name.
     ///
     /// # Errors
-    /// What the system refuses, what is no matrix, and numbers that are negative or none, with their place.
-    pub fn read(path: &Path) -> Result<Self> {
-        let bytes = crate::read_file(path, LONGEST, "matrix")?;
-        let read = if bytes.starts_with(npy::MAGIC) { npy::read(&bytes) } else { radiance::read(&bytes) };
+    /// What is no matrix, and numbers that are negative or none, with their place.
+    pub fn read(path: &Path, bytes: &[u8]) -> Result<Self> {
+        let read = if bytes.starts_with(npy::MAGIC) { npy::read(bytes) } else { radiance::read(bytes) };
         read.map(|read| Self { path: path.into(), ..read }).map_err(|error| AnnualError::content(path, error))
     }
 

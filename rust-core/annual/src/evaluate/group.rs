@@ -1,16 +1,7 @@
 //! Groups of windows: their coefficients, their blinds, and what light they let in.
 
-use super::wrong;
-use crate::{
-    Coefficients,
-    division::Division,
-    error::{AnnualError, Result},
-    product::Panels,
-    sky::SkyMatrix,
-    sun::SUN_ANGLE_DEG,
-    year::Year,
-};
-use std::f64::consts::PI;
+use super::columns::Columns;
+use crate::{Coefficients, product::Panels};
 
 /// Direct sun that has blinds closed, lx (LM-83-12).
 const TOO_BRIGHT: f32 = 1000.0;
@@ -37,60 +28,6 @@ pub struct Group {
     pub sun: Option<Coefficients>,
     /// The blinds, which direct sun closes; `None` where there are none.
     pub blinds: Option<Blinds>,
-}
-
-/// What all groups of a grid have in common.
-pub(super) struct Shape {
-    pub(super) points: usize,
-    pub(super) factor: u32,
-    pub(super) blocks: usize,
-    pub(super) has_direct: bool,
-    /// For each step the column of its sun.
-    pub(super) suns: Vec<Option<usize>>,
-}
-
-/// Checks coefficients against each other and the year.
-pub(super) fn shape(groups: &[Group], year: &Year) -> Result<Shape> {
-    let first = groups.first().ok_or_else(|| AnnualError::setting("coefficients", "there are none"))?;
-    let (points, patches) = (first.open.points, first.open.columns);
-    let division = Division::of_count(patches).ok_or_else(|| {
-        let counts = [1, 2, 3, 4, 5, 6].map(|factor| Division::count(factor).to_string()).join(", ");
-        wrong(&first.open, format!("{patches} columns, expected those of a sky with its ground: {counts}"))
-    })?;
-    let sunny = year.sunny_steps();
-    let mut blocks = 1;
-    for group in groups {
-        let closed = if let Some(Blinds::Coefficients(closed)) = &group.blinds { Some(closed) } else { None };
-        for (of, is_patches, is_suns) in [
-            (Some(&group.open), true, false),
-            (closed, true, false),
-            (group.direct.as_ref(), true, true),
-            (group.sun.as_ref(), false, true),
-        ] {
-            let Some(of) = of else { continue };
-            if of.points != points {
-                return Err(wrong(of, format!("{} rows, expected {points}, the points of the other matrices", of.points)));
-            }
-            if !(is_patches && of.columns == patches || is_suns && of.columns == sunny.len()) {
-                let names =
-                    [(is_patches, patches, "patches"), (is_suns, sunny.len(), "suns, one for each step of the weather with the sun up")];
-                let expected: Vec<String> =
-                    names.iter().filter(|name| name.0).map(|(_, count, name)| format!("{count} ({name})")).collect();
-                return Err(wrong(of, format!("{} columns, expected {}", of.columns, expected.join(" or "))));
-            }
-            if blocks > 1 && of.blocks.len() > 1 && of.blocks.len() != blocks {
-                return Err(wrong(of, format!("{} blocks, expected {blocks} as in the other matrices", of.blocks.len())));
-            }
-            blocks = blocks.max(of.blocks.len());
-        }
-        if group.blinds.is_some() && group.direct.is_none() {
-            return Err(AnnualError::setting("blinds", "direct coefficients are missing: direct sun is what closes blinds"));
-        }
-    }
-    let mut suns = vec![None; year.steps.len()];
-    sunny.iter().enumerate().for_each(|(column, step)| suns[*step] = Some(column));
-    let has_direct = groups.iter().all(|group| group.direct.is_some());
-    Ok(Shape { points, factor: division.factor(), blocks, has_direct, suns })
 }
 
 /// A group's matrices as products take them.
@@ -138,43 +75,6 @@ impl Prepared {
 /// Matrices of a single block stay whole.
 fn mean(of: &Coefficients, without: Option<usize>) -> Vec<f32> {
     of.mean(without.filter(|_| of.blocks.len() > 1))
-}
-
-/// The skies that columns are taken from.
-pub(super) struct Skies<'a> {
-    pub(super) all: &'a SkyMatrix<'a>,
-    pub(super) alone: &'a SkyMatrix<'a>,
-    pub(super) suns: &'a [Option<usize>],
-}
-
-/// A chunk's columns of the sky.
-pub(super) struct Columns {
-    /// Sky and sun.
-    all: Vec<f32>,
-    /// The sun in the patches.
-    alone: Vec<f32>,
-    /// The sky without the sun.
-    sky: Vec<f32>,
-    /// Column and luminance in cd/m² of each step's sun.
-    suns: Vec<Option<(usize, f32)>>,
-}
-
-impl Columns {
-    pub(super) fn new(skies: &Skies<'_>, groups: &[Group], shape: &Shape, steps: &[usize], threads: usize) -> Self {
-        let patches = Division::count(shape.factor);
-        let needs_alone =
-            groups.iter().any(|group| group.sun.is_some() || group.direct.as_ref().is_some_and(|direct| direct.columns == patches));
-        let all = skies.all.columns(steps, threads);
-        let alone = if needs_alone { skies.alone.columns(steps, threads) } else { Vec::new() };
-        let sky = if groups.iter().any(|group| group.sun.is_some()) {
-            all.iter().zip(&alone).map(|(all, sun)| (all - sun).max(0.0)).collect()
-        } else {
-            Vec::new()
-        };
-        let disc = PI * (0.5 * SUN_ANGLE_DEG).to_radians().powi(2);
-        let sun = |step: &usize| Some((skies.suns[*step]?, (skies.all.conditions(*step)?.direct_normal / disc) as f32));
-        Self { all, alone, sky, suns: steps.iter().map(sun).collect() }
-    }
 }
 
 impl Direct {

@@ -1,6 +1,8 @@
 //! A year at the points of a grid: chunks of steps go through sky, product and metrics, so that memory does not grow with the year.
 
+mod columns;
 mod group;
+mod shape;
 
 pub use group::{Blinds, Group};
 
@@ -51,7 +53,7 @@ pub fn evaluate(
     settings: &Settings,
     take: &mut dyn FnMut(&Chunk<'_>) -> bool,
 ) -> Result<Option<Grid>> {
-    let shape = group::shape(groups, year)?;
+    let shape = shape::shape(groups, year)?;
     let options = SkyOptions { factor: shape.factor, ..settings.sky };
     let all = SkyMatrix::new(year, SkyOptions { light: Light::All { sun_patches: 4 }, ..options })?;
     let alone = SkyMatrix::new(year, SkyOptions { light: Light::SunAlone { sun_patches: 4 }, ..options })?;
@@ -61,9 +63,9 @@ pub fn evaluate(
         .map(|without| (Prepared::all(groups, without), Counts::new(shape.points)))
         .collect();
     let lit: Vec<usize> = (0..year.steps.len()).filter(|step| all.conditions(*step).is_some()).collect();
-    let skies = group::Skies { all: &all, alone: &alone, suns: &shape.suns };
+    let skies = columns::Skies { all: &all, alone: &alone, suns: &shape.suns };
     for steps in lit.chunks(steps_of_a_chunk(settings, &shape, groups)) {
-        let columns = group::Columns::new(&skies, groups, &shape, steps, settings.threads);
+        let columns = columns::Columns::new(&skies, groups, &shape, steps, settings.threads);
         for (index, (prepared, counts)) in variants.iter_mut().enumerate() {
             let (total, direct) = group::light(prepared, &columns, settings.threads);
             let chunk = Chunk { steps, total: &total, direct: direct.as_deref() };
@@ -79,7 +81,7 @@ pub fn evaluate(
 }
 
 /// As many steps as fit into the memory.
-fn steps_of_a_chunk(settings: &Settings, shape: &group::Shape, groups: &[Group]) -> usize {
+fn steps_of_a_chunk(settings: &Settings, shape: &shape::Shape, groups: &[Group]) -> usize {
     let columns = 3 * (144 * (shape.factor * shape.factor) as usize + 2);
     let products = shape.points * (2 + 3 * groups.len());
     (settings.memory / (4 * (columns + products))).max(LEAST_STEPS)
