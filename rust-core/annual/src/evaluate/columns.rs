@@ -8,6 +8,7 @@ use std::f64::consts::PI;
 pub(super) struct Skies<'a> {
     pub(super) all: &'a SkyMatrix<'a>,
     pub(super) alone: &'a SkyMatrix<'a>,
+    pub(super) sky: &'a SkyMatrix<'a>,
     pub(super) suns: &'a [Option<usize>],
 }
 
@@ -26,15 +27,11 @@ pub(super) struct Columns {
 impl Columns {
     pub(super) fn new(skies: &Skies<'_>, groups: &[Group], shape: &Shape, steps: &[usize], threads: usize) -> Self {
         let patches = Division::count(shape.factor);
-        let needs_alone =
-            groups.iter().any(|group| group.sun.is_some() || group.direct.as_ref().is_some_and(|direct| direct.columns == patches));
-        let all = skies.all.columns(steps, threads);
-        let alone = if needs_alone { skies.alone.columns(steps, threads) } else { Vec::new() };
-        let sky = if groups.iter().any(|group| group.sun.is_some()) {
-            all.iter().zip(&alone).map(|(all, sun)| (all - sun).max(0.0)).collect()
-        } else {
-            Vec::new()
-        };
+        let is_in_patches = groups.iter().any(|group| group.direct.as_ref().is_some_and(|direct| direct.columns == patches));
+        let is_apart = groups.iter().any(|group| group.sun.is_some());
+        let columns = |of: &SkyMatrix<'_>, is_needed: bool| if is_needed { of.columns(steps, threads) } else { Vec::new() };
+        let [all, alone, sky] =
+            [(skies.all, true), (skies.alone, is_in_patches), (skies.sky, is_apart)].map(|(of, needed)| columns(of, needed));
         let disc = PI * (0.5 * SUN_ANGLE_DEG).to_radians().powi(2);
         let sun = |step: &usize| Some((skies.suns[*step]?, (skies.all.conditions(*step)?.direct_normal / disc) as f32));
         Self { all, alone, sky, suns: steps.iter().map(sun).collect() }

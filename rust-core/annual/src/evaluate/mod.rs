@@ -57,13 +57,14 @@ pub fn evaluate(
     let options = SkyOptions { factor: shape.factor, ..settings.sky };
     let all = SkyMatrix::new(year, SkyOptions { light: Light::All { sun_patches: 4 }, ..options })?;
     let alone = SkyMatrix::new(year, SkyOptions { light: Light::SunAlone { sun_patches: 4 }, ..options })?;
+    let sky = SkyMatrix::new(year, SkyOptions { light: Light::WithoutSun, ..options })?;
     let half = Half::of(&all);
     let mut variants: Vec<(Vec<Prepared>, Counts)> = std::iter::once(None)
         .chain((0..shape.blocks).filter(|_| shape.blocks > 1).map(Some))
         .map(|without| (Prepared::all(groups, without), Counts::new(shape.points)))
         .collect();
     let lit: Vec<usize> = (0..year.steps.len()).filter(|step| all.conditions(*step).is_some()).collect();
-    let skies = columns::Skies { all: &all, alone: &alone, suns: &shape.suns };
+    let skies = columns::Skies { all: &all, alone: &alone, sky: &sky, suns: &shape.suns };
     for steps in lit.chunks(steps_of_a_chunk(settings, &shape, groups)) {
         let columns = columns::Columns::new(&skies, groups, &shape, steps, settings.threads);
         for (index, (prepared, counts)) in variants.iter_mut().enumerate() {
