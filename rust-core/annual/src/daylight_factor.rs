@@ -1,6 +1,11 @@
 //! Daylight factors by coefficients: the traditional overcast sky of the CIE (type 16), per cent of its light outside.
 
-use crate::{error::Result, evaluate::Group, sky::cie_sky, sun::Sun};
+use crate::{
+    error::Result,
+    evaluate::Group,
+    sky::{SkyOptions, cie_sky},
+    sun::Sun,
+};
 
 /// The sky of daylight factors.
 const OVERCAST: u8 = 16;
@@ -8,9 +13,8 @@ const OVERCAST: u8 = 16;
 const OUTSIDE: f64 = 100.0;
 
 /// Factors of the points in per cent, blinds open: of the mean of all blocks, then without each of them.
-pub(crate) fn of_points(groups: &[Group], factor: u32, ground: f64) -> Result<Vec<Vec<f64>>> {
-    let sky = cie_sky(factor, OVERCAST, Sun::default(), OUTSIDE, ground)?;
-    let blocks = groups.iter().map(|group| group.open.blocks.len()).max().unwrap_or(1);
+pub(crate) fn of_points(groups: &[Group], options: &SkyOptions, blocks: usize) -> Result<Vec<Vec<f64>>> {
+    let sky = cie_sky(options.factor, OVERCAST, Sun::default(), OUTSIDE, options.ground)?;
     let under_sky = |row: &[f32]| row.iter().zip(&sky).map(|(coefficient, patch)| f64::from(*coefficient) * f64::from(*patch)).sum::<f64>();
     let of = |without: Option<usize>| {
         let mut factors = vec![0.0; groups[0].open.points];
@@ -20,5 +24,5 @@ pub(crate) fn of_points(groups: &[Group], factor: u32, ground: f64) -> Result<Ve
         }
         factors
     };
-    Ok(std::iter::once(None).chain((0..blocks).map(Some)).map(of).collect())
+    Ok(std::iter::once(None).chain((0..blocks).filter(|_| blocks > 1).map(Some)).map(of).collect())
 }

@@ -11,7 +11,7 @@ use crate::{
     error::{AnnualError, Result},
     metrics::{Counts, Grid, Half, Variant},
     schedule::Schedule,
-    sky::{Light, SkyMatrix, SkyOptions},
+    sky::{Light, Quantity, SkyMatrix, SkyOptions},
     year::Year,
 };
 use group::Prepared;
@@ -22,7 +22,7 @@ const LEAST_STEPS: usize = 16;
 /// How a year is calculated.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
-    /// The sky; its light and division follow from the coefficients.
+    /// The sky; it is in cd/m², and its light and division follow from the coefficients.
     pub sky: SkyOptions,
     /// Bytes that the columns and products of a chunk may take, beside the coefficients.
     pub memory: usize,
@@ -54,7 +54,7 @@ pub fn evaluate(
     take: &mut dyn FnMut(&Chunk<'_>) -> bool,
 ) -> Result<Option<Grid>> {
     let shape = shape::shape(groups, year)?;
-    let options = SkyOptions { factor: shape.factor, ..settings.sky };
+    let options = SkyOptions { factor: shape.factor, quantity: Quantity::Luminance, ..settings.sky };
     let all = SkyMatrix::new(year, SkyOptions { light: Light::All { sun_patches: 4 }, ..options })?;
     let alone = SkyMatrix::new(year, SkyOptions { light: Light::SunAlone { sun_patches: 4 }, ..options })?;
     let sky = SkyMatrix::new(year, SkyOptions { light: Light::WithoutSun, ..options })?;
@@ -76,7 +76,7 @@ pub fn evaluate(
             counts.add(&chunk, schedule, &half);
         }
     }
-    let factors = daylight_factor::of_points(groups, options.factor, options.ground)?;
+    let factors = daylight_factor::of_points(groups, &options, shape.blocks)?;
     let variants = variants.into_iter().zip(factors).map(|((_, counts), factors)| Variant { counts, factors }).collect::<Vec<_>>();
     Ok(Some(Grid::new(&variants, year, schedule, &half, shape.has_direct)))
 }

@@ -2,6 +2,7 @@
 
 use super::{Blinds, Group, wrong};
 use crate::{
+    Coefficients,
     division::Division,
     error::{AnnualError, Result},
     year::Year,
@@ -26,37 +27,39 @@ pub(super) fn shape(groups: &[Group], year: &Year) -> Result<Shape> {
         wrong(&first.open, format!("{patches} columns, expected those of a sky with its ground: {counts}"))
     })?;
     let sunny = year.sunny_steps();
-    let mut blocks = 1;
+    let mut shape = Shape { points, factor: division.factor(), blocks: 1, has_direct: true, suns: vec![None; year.steps.len()] };
+    sunny.iter().enumerate().for_each(|(column, step)| shape.suns[*step] = Some(column));
+    let (patches, suns) = ((patches, "patches"), (sunny.len(), "suns, one for each step of the weather with the sun up"));
     for group in groups {
         let closed = if let Some(Blinds::Coefficients(closed)) = &group.blinds { Some(closed) } else { None };
-        for (of, is_patches, is_suns) in [
-            (Some(&group.open), true, false),
-            (closed, true, false),
-            (group.direct.as_ref(), true, true),
-            (group.sun.as_ref(), false, true),
-        ] {
-            let Some(of) = of else { continue };
-            if of.points != points {
-                return Err(wrong(of, format!("{} rows, expected {points}, the points of the other matrices", of.points)));
-            }
-            if !(is_patches && of.columns == patches || is_suns && of.columns == sunny.len()) {
-                let names =
-                    [(is_patches, patches, "patches"), (is_suns, sunny.len(), "suns, one for each step of the weather with the sun up")];
-                let expected: Vec<String> =
-                    names.iter().filter(|name| name.0).map(|(_, count, name)| format!("{count} ({name})")).collect();
-                return Err(wrong(of, format!("{} columns, expected {}", of.columns, expected.join(" or "))));
-            }
-            if blocks > 1 && of.blocks.len() > 1 && of.blocks.len() != blocks {
-                return Err(wrong(of, format!("{} blocks, expected {blocks} as in the other matrices", of.blocks.len())));
-            }
-            blocks = blocks.max(of.blocks.len());
+        for of in [Some(&group.open), closed].into_iter().flatten() {
+            shape.check(of, &[patches])?;
         }
+        group.direct.iter().try_for_each(|of| shape.check(of, &[patches, suns]))?;
+        group.sun.iter().try_for_each(|of| shape.check(of, &[suns]))?;
         if group.blinds.is_some() && group.direct.is_none() {
             return Err(AnnualError::setting("blinds", "direct coefficients are missing: direct sun is what closes blinds"));
         }
+        shape.has_direct &= group.direct.is_some();
     }
-    let mut suns = vec![None; year.steps.len()];
-    sunny.iter().enumerate().for_each(|(column, step)| suns[*step] = Some(column));
-    let has_direct = groups.iter().all(|group| group.direct.is_some());
-    Ok(Shape { points, factor: division.factor(), blocks, has_direct, suns })
+    Ok(shape)
+}
+
+impl Shape {
+    /// Checks a matrix whose columns may be those of some counts, and notes its blocks.
+    fn check(&mut self, of: &Coefficients, columns: &[(usize, &str)]) -> Result<()> {
+        if of.points != self.points {
+            return Err(wrong(of, format!("{} rows, expected {}, the points of the other matrices", of.points, self.points)));
+        }
+        if !columns.iter().any(|(count, _)| *count == of.columns) {
+            let expected: Vec<String> = columns.iter().map(|(count, name)| format!("{count} ({name})")).collect();
+            return Err(wrong(of, format!("{} columns, expected {}", of.columns, expected.join(" or "))));
+        }
+        let blocks = of.blocks.len();
+        if self.blocks > 1 && blocks > 1 && blocks != self.blocks {
+            return Err(wrong(of, format!("{blocks} blocks, expected {} as in the other matrices", self.blocks)));
+        }
+        self.blocks = self.blocks.max(blocks);
+        Ok(())
+    }
 }

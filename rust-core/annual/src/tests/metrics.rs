@@ -173,4 +173,13 @@ fn blocks_give_standard_errors() {
     assert!((errors.points[0].mean_lx / grid.points[0].mean_lx - 0.1).abs() < 1e-4);
     assert!((errors.median_daylight_factor / grid.median_daylight_factor - 0.1).abs() < 1e-4);
     assert!(errors.points[0].da_300 > 0.0 && errors.ase_1000_250.is_none());
+    // Blocks of the direct light alone: its hours have an error, all else has none.
+    let both = Coefficients {
+        blocks: vec![suns(&[0.5]).blocks.concat(), suns(&[0.02]).blocks.concat(), suns(&[0.0]).blocks.concat()],
+        ..suns(&[0.5])
+    };
+    let grid = found(&[Group { direct: Some(both), ..group(&[level(0.02)]) }], &settings());
+    let errors = grid.standard_errors.as_ref().expect("errors");
+    assert!(errors.points[0].hours_direct_1000.is_some_and(|error| error > 0.0));
+    assert_eq!((errors.points[0].mean_lx, errors.median_daylight_factor), (0.0, 0.0));
 }
