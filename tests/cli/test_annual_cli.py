@@ -1,4 +1,4 @@
-"""`gonio annual-metrics` against numpy: points that see a share of the whole sky, so that their light is that of the weather file, which is in lux."""
+"""`gonio annual-metrics` against numpy: points see a share of the whole sky, so their light is that of the weather file, which is in lux."""
 
 import csv
 import json
@@ -15,7 +15,7 @@ HOUR = STEPS % 24 + 0.5
 IS_LIGHT = (HOUR > 9) & (HOUR < 16)
 USED = (HOUR > 8) & (HOUR < 18)
 DIRECT = np.where(IS_LIGHT, STEPS * 37 % 13 * 6000, 0).astype(float)
-DIFFUSE = np.where(IS_LIGHT, 3100 + STEPS * 53 % 11 * 3500, 0).astype(float)
+DIFFUSE = np.where(IS_LIGHT, 6100 + STEPS * 53 % 11 * 3500, 0).astype(float)
 DISC = math.pi * math.radians(0.2665) ** 2
 
 
@@ -173,7 +173,8 @@ BAD = [
 
 @pytest.mark.parametrize(("words", "expected"), BAD)
 def test_what_does_not_fit_is_told(run, folder, words, expected):
-    files = {"room": saved(folder / "room.npy", level(0.02, 0.03)), "short": saved(folder / "short.npy", level(0.02)), "absent": folder / "absent.npy"}
+    files = {"absent": folder / "absent.npy", "room": saved(folder / "room.npy", level(0.02, 0.03))}
+    files["short"] = saved(folder / "short.npy", level(0.02))
     words = [word.format(**files) for word in words]
     done = run("annual-metrics", "--weather", folder / "year.wea", "--coefficients", files["room"], *words)
     assert done.returncode == 1 and done.stdout == ""

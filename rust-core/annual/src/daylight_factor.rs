@@ -2,7 +2,7 @@
 
 use crate::{
     error::Result,
-    evaluate::Group,
+    group::Group,
     sky::{SkyOptions, cie_sky},
     sun::Sun,
 };

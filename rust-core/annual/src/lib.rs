@@ -7,12 +7,14 @@
 
 #![forbid(unsafe_code)]
 
+mod chunk;
 mod coefficients;
 mod daylight_factor;
 mod dew_point;
 mod division;
 mod error;
 mod evaluate;
+mod group;
 mod metrics;
 mod product;
 mod schedule;
@@ -22,11 +24,13 @@ mod sun;
 mod tests;
 mod year;
 
+pub use chunk::Chunk;
 pub use coefficients::{Coefficients, to_npy};
 pub use dew_point::USUAL_DEW_POINT_C;
 pub use division::{Division, FINEST, Patch};
 pub use error::AnnualError;
-pub use evaluate::{Blinds, Chunk, Group, Settings, evaluate};
+pub use evaluate::{Settings, evaluate};
+pub use group::{Blinds, Group};
 pub use metrics::{En17037, Grid, GridErrors, Level, Method, Point};
 pub use product::Panels;
 pub use schedule::Schedule;

@@ -59,6 +59,11 @@ impl Coefficients {
         Ok(Self { path: PathBuf::new(), points, columns, blocks })
     }
 
+    /// An error of the file.
+    pub(crate) fn wrong(&self, problem: String) -> AnnualError {
+        AnnualError::content(&self.path, FormatError::whole(problem))
+    }
+
     /// The mean of the blocks, row after row; without one of them, if that is asked for.
     pub fn mean(&self, without: Option<usize>) -> Vec<f32> {
         let used: Vec<&Vec<f32>> =

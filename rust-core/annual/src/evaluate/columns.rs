@@ -1,7 +1,7 @@
 //! A chunk's columns of the sky.
 
-use super::{Group, shape::Shape};
-use crate::{division::Division, sky::SkyMatrix, sun::SUN_ANGLE_DEG};
+use super::shape::Shape;
+use crate::{division::Division, group::Group, sky::SkyMatrix, sun::SUN_ANGLE_DEG};
 use std::f64::consts::PI;
 
 /// The skies that columns are taken from.

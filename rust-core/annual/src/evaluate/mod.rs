@@ -1,20 +1,20 @@
 //! A year at the points of a grid: chunks of steps go through sky, product and metrics, so that memory does not grow with the year.
 
 mod columns;
-mod group;
+mod prepared;
 mod shape;
 
-pub use group::{Blinds, Group};
-
 use crate::{
+    chunk::Chunk,
     daylight_factor,
-    error::{AnnualError, Result},
+    error::Result,
+    group::Group,
     metrics::{Counts, Grid, Half, Variant},
     schedule::Schedule,
     sky::{Light, Quantity, SkyMatrix, SkyOptions},
     year::Year,
 };
-use group::Prepared;
+use prepared::Prepared;
 
 /// Fewest steps of a chunk.
 const LEAST_STEPS: usize = 16;
@@ -28,17 +28,6 @@ pub struct Settings {
     pub memory: usize,
     /// Threads.
     pub threads: usize,
-}
-
-/// What a chunk of steps brings: `[point][step]` in lx.
-#[derive(Debug)]
-pub struct Chunk<'a> {
-    /// The steps, all of them with light; in those that no chunk names it is dark.
-    pub steps: &'a [usize],
-    /// Sky and sun, with blinds as they are operated.
-    pub total: &'a [f32],
-    /// The sun alone, through open blinds; `None` where it is not known.
-    pub direct: Option<&'a [f32]>,
 }
 
 /// Calculates a grid by its groups of windows, whose light adds up. `take` sees every chunk, and stops the calculation by `false`: then there is
@@ -68,7 +57,7 @@ pub fn evaluate(
     for steps in lit.chunks(steps_of_a_chunk(settings, &shape, groups)) {
         let columns = columns::Columns::new(&skies, groups, &shape, steps, settings.threads);
         for (index, (prepared, counts)) in variants.iter_mut().enumerate() {
-            let (total, direct) = group::light(prepared, &columns, settings.threads);
+            let (total, direct) = prepared::light(prepared, &columns, settings.threads);
             let chunk = Chunk { steps, total: &total, direct: direct.as_deref() };
             if index == 0 && !take(&chunk) {
                 return Ok(None);
@@ -86,9 +75,4 @@ fn steps_of_a_chunk(settings: &Settings, shape: &shape::Shape, groups: &[Group])
     let columns = 3 * (144 * (shape.factor * shape.factor) as usize + 2);
     let products = shape.points * (2 + 3 * groups.len());
     (settings.memory / (4 * (columns + products))).max(LEAST_STEPS)
-}
-
-/// An error of coefficients' file.
-fn wrong(coefficients: &crate::Coefficients, problem: String) -> AnnualError {
-    AnnualError::content(&coefficients.path, gonio_formats::FormatError::whole(problem))
 }

@@ -1,10 +1,10 @@
 //! Whether coefficients fit each other and the year.
 
-use super::{Blinds, Group, wrong};
 use crate::{
     Coefficients,
     division::Division,
     error::{AnnualError, Result},
+    group::{Blinds, Group},
     year::Year,
 };
 
@@ -24,7 +24,7 @@ pub(super) fn shape(groups: &[Group], year: &Year) -> Result<Shape> {
     let (points, patches) = (first.open.points, first.open.columns);
     let division = Division::of_count(patches).ok_or_else(|| {
         let counts = [1, 2, 3, 4, 5, 6].map(|factor| Division::count(factor).to_string()).join(", ");
-        wrong(&first.open, format!("{patches} columns, expected those of a sky with its ground: {counts}"))
+        first.open.wrong(format!("{patches} columns, expected those of a sky with its ground: {counts}"))
     })?;
     let sunny = year.sunny_steps();
     let mut shape = Shape { points, factor: division.factor(), blocks: 1, has_direct: true, suns: vec![None; year.steps.len()] };
@@ -49,15 +49,15 @@ impl Shape {
     /// Checks a matrix whose columns may be those of some counts, and notes its blocks.
     fn check(&mut self, of: &Coefficients, columns: &[(usize, &str)]) -> Result<()> {
         if of.points != self.points {
-            return Err(wrong(of, format!("{} rows, expected {}, the points of the other matrices", of.points, self.points)));
+            return Err(of.wrong(format!("{} rows, expected {}, the points of the other matrices", of.points, self.points)));
         }
         if !columns.iter().any(|(count, _)| *count == of.columns) {
             let expected: Vec<String> = columns.iter().map(|(count, name)| format!("{count} ({name})")).collect();
-            return Err(wrong(of, format!("{} columns, expected {}", of.columns, expected.join(" or "))));
+            return Err(of.wrong(format!("{} columns, expected {}", of.columns, expected.join(" or "))));
         }
         let blocks = of.blocks.len();
         if self.blocks > 1 && blocks > 1 && blocks != self.blocks {
-            return Err(wrong(of, format!("{blocks} blocks, expected {} as in the other matrices", self.blocks)));
+            return Err(of.wrong(format!("{blocks} blocks, expected {} as in the other matrices", self.blocks)));
         }
         self.blocks = self.blocks.max(blocks);
         Ok(())

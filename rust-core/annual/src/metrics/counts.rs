@@ -1,7 +1,7 @@
 //! What is counted of a year at each point, chunk by chunk.
 
 use super::en17037::{Half, LEVELS};
-use crate::{evaluate::Chunk, schedule::Schedule};
+use crate::{chunk::Chunk, schedule::Schedule};
 
 /// Direct sun that counts, lx.
 const BRIGHT: f32 = 1000.0;

@@ -1,34 +1,16 @@
-//! Groups of windows: their coefficients, their blinds, and what light they let in.
+//! What light groups of windows let in, and when their blinds are closed.
 
 use super::columns::Columns;
-use crate::{Coefficients, product::Panels};
+use crate::{
+    Coefficients,
+    group::{Blinds, Group},
+    product::Panels,
+};
 
 /// Direct sun that has blinds closed, lx (LM-83-12).
 const TOO_BRIGHT: f32 = 1000.0;
 /// Blinds close when more than this share of the points has it.
 const TOO_MANY: f64 = 0.02;
-
-/// What blinds leave of a group's light when they are closed.
-#[derive(Clone, Debug)]
-pub enum Blinds {
-    /// This share of the light through open ones; 0.02 is usual.
-    Share(f32),
-    /// Coefficients of their own.
-    Coefficients(Coefficients),
-}
-
-/// Windows whose blinds are operated together.
-#[derive(Clone, Debug)]
-pub struct Group {
-    /// Of all light, blinds open: points × patches.
-    pub open: Coefficients,
-    /// Of direct light alone: points × patches, or points × suns, a column for each step with the sun above the horizon.
-    pub direct: Option<Coefficients>,
-    /// Of the sun's light with all its bounces: points × suns. Where it is given, the sun leaves the patches.
-    pub sun: Option<Coefficients>,
-    /// The blinds, which direct sun closes; `None` where there are none.
-    pub blinds: Option<Blinds>,
-}
 
 /// A group's matrices as products take them.
 pub(super) struct Prepared {
