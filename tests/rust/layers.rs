@@ -36,13 +36,15 @@ fn lines_with(folder: &str, needle: &str) -> Vec<String> {
 }
 
 /// Crates of the engine from the ground up, and which others of gonio each may use.
-const CRATES: [(&str, &[&str]); 16] = [
+const CRATES: [(&str, &[&str]); 18] = [
     ("simd", &[]),
     ("formats", &[]),
     ("spectrum", &["formats"]),
     ("volume", &[]),
     ("mesh", &[]),
     ("road", &["formats"]),
+    ("sky", &[]),
+    ("annual", &["formats", "sky"]),
     ("accel", &["simd"]),
     ("image", &["simd"]),
     ("table", &["simd"]),
@@ -52,7 +54,7 @@ const CRATES: [(&str, &[&str]); 16] = [
     ("nodes", &["simd"]),
     ("scene", &["formats", "image", "nodes", "volume"]),
     ("transport", &["simd", "accel", "image", "bsdf", "light", "camera", "nodes"]),
-    ("engine", &["simd", "formats", "mesh", "accel", "image", "table", "camera", "bsdf", "light", "nodes", "scene", "transport"]),
+    ("engine", &["simd", "formats", "sky", "mesh", "accel", "image", "table", "camera", "bsdf", "light", "nodes", "scene", "transport"]),
 ];
 
 #[test]

@@ -1,5 +1,6 @@
 //! The `gonio` command.
 
+mod annual;
 mod arguments;
 mod autocrop;
 mod bench;
@@ -108,6 +109,7 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
         Command::Falsecolor(options) => py.detach(|| falsecolor::falsecolor(&options)),
         Command::Report(options) => report::report(py, &options, &INTERRUPTED),
         Command::Road(options) => py.detach(|| road::road(&options, &INTERRUPTED)),
+        Command::AnnualMetrics(options) => py.detach(|| annual::annual_metrics(&options, &INTERRUPTED)),
         Command::Glare(options) => py.detach(|| glare::glare(&options)),
         Command::Bench(options) => py.detach(|| bench::bench(&options, &INTERRUPTED)),
         Command::Completion(options) => completion::completion(&options),

@@ -1,5 +1,6 @@
 //! What the command line takes, by command.
 
+mod annual;
 mod bench;
 mod bsdf;
 mod checkpoint;
@@ -25,6 +26,7 @@ mod texture;
 mod view;
 mod work;
 
+pub(super) use annual::AnnualOptions;
 pub(super) use bench::BenchOptions;
 pub(super) use bsdf::{BsdfOptions, SampleArguments};
 pub(super) use checkpoint::{CheckpointArguments, MergeArguments};
@@ -49,6 +51,7 @@ pub(super) use texture::TextureArguments;
 pub(super) use view::{ShowArgument, ViewOptions};
 pub(super) use work::WorkArguments;
 
+use annual::ANNUAL_EXAMPLES;
 use bsdf::BSDF_EXAMPLES;
 use clap::{Parser, Subcommand, ValueEnum};
 use gonio::scene::Integrator;
@@ -158,6 +161,12 @@ pub(super) enum Command {
     /// lighting class.
     #[command(after_long_help = ROAD_EXAMPLES)]
     Road(RoadOptions),
+    /// Calculate a year of daylight from coefficients and a weather file: sDA, ASE, daylight autonomy, UDI, EN 17037, with standard errors.
+    ///
+    /// No light is traced: coefficients say what each patch of the sky brings to each point, the weather file how bright each patch is, hour by
+    /// hour, as Radiance's gendaymtx has it.
+    #[command(name = "annual-metrics", after_long_help = ANNUAL_EXAMPLES)]
+    AnnualMetrics(Box<AnnualOptions>),
     /// Rate glare in a picture of luminances, a fisheye or a perspective: UGR and DGP, and the sources that cause it.
     Glare(GlareArguments),
     /// Measure every stage of rendering at every SIMD level against one lane.

@@ -1,18 +1,9 @@
 //! What comes through a cloudless atmosphere: the ESRA model (Rigollier, Bauer and Wald, Solar Energy 68, 2000) by Linke's turbidity.
 
-use super::Moment;
+use super::{Irradiance, Moment};
 
 /// Irradiance outside the atmosphere at the mean distance, W/m².
 const SOLAR_CONSTANT: f64 = 1367.0;
-
-/// What the sun and the sky bring to the ground.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Irradiance {
-    /// From the sun's disc on a surface that faces it, W/m².
-    pub direct_normal: f64,
-    /// From the sky without the disc on a level surface, W/m².
-    pub diffuse_horizontal: f64,
-}
 
 /// Normal irradiance outside the atmosphere on the moment's day, W/m² (Spencer 1971).
 pub fn extraterrestrial_irradiance(moment: &Moment) -> f64 {

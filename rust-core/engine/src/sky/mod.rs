@@ -6,36 +6,32 @@
 //! Directions are unit vectors (east, north, up). Azimuths are degrees from true north, clockwise seen from above.
 
 mod atmosphere;
-mod cie;
 mod clear_sky;
 mod colour;
 mod daylight;
 mod distribution;
-mod efficacy;
 mod frame;
 mod hosek_wilkie;
 mod image;
 mod model;
 mod moment;
-mod perez;
 mod preetham;
 mod sun_position;
 mod weather;
 
 pub use atmosphere::{Atmosphere, Scattering};
-pub use cie::{CIE_TYPES, CieSky};
-pub use clear_sky::{Irradiance, clear_sky_irradiance, extraterrestrial_irradiance, relative_air_mass};
+pub use clear_sky::{clear_sky_irradiance, extraterrestrial_irradiance, relative_air_mass};
 pub use daylight::{Daylight, SUN_ANGLE_DEG, Sky};
-pub use efficacy::{diffuse_efficacy, direct_efficacy};
 pub use frame::{Frame, UpAxis};
 pub use hosek_wilkie::{HosekWilkie, HosekWilkieChannel};
 pub use image::{DEFAULT_ROWS, SkyImage, draw_by_angle};
 pub use model::SkyModel;
 pub use moment::Moment;
-pub use perez::{Clearness, PerezSky};
 pub use preetham::Preetham;
 pub use sun_position::{Air, Place, SunPosition, SunTimes, sun_position, sun_times};
 pub use weather::in_irradiances;
+
+pub use gonio_sky::{CIE_TYPES, CieSky, Clearness, Irradiance, PerezSky, diffuse_efficacy, direct_efficacy};
 
 #[cfg(test)]
 mod tests;

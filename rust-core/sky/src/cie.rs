@@ -28,7 +28,7 @@ impl CieSky {
     }
 
     /// The standard overcast, intermediate or clear sky (types 1, 7 and 12), by Perez' clearness.
-    pub(super) fn of_clearness(clearness: f64, zenith_angle: f64) -> Self {
+    pub fn of_clearness(clearness: f64, zenith_angle: f64) -> Self {
         let kind = match clearness {
             ..1.23 => 1,
             ..2.8 => 7,

@@ -1,7 +1,5 @@
 //! The all-weather sky (Perez, Seals and Michalsky, Solar Energy 50, 1993, with the erratum in 51): luminances by two measured irradiances.
 
-use super::Irradiance;
-
 /// Upper bounds of the classes of clearness but the last.
 const CLASSES: [f64; 7] = [1.065, 1.230, 1.500, 1.950, 2.800, 4.500, 6.200];
 /// For each class the parameters a to e: constant, factor of the sun's zenith angle, and both again for the factor of the brightness.
@@ -64,6 +62,15 @@ const COEFFICIENTS: [[[f64; 4]; 5]; 8] = [
     ],
 ];
 
+/// What the sun and the sky bring to the ground.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Irradiance {
+    /// From the sun's disc on a surface that faces it, W/m².
+    pub direct_normal: f64,
+    /// From the sky without the disc on a level surface, W/m².
+    pub diffuse_horizontal: f64,
+}
+
 /// How clear and how bright a sky is, after Perez.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clearness {
@@ -75,7 +82,7 @@ pub struct Clearness {
 
 impl Clearness {
     /// Darker skies are not told apart.
-    pub(super) const LEAST_BRIGHTNESS: f64 = 0.01;
+    pub const LEAST_BRIGHTNESS: f64 = 0.01;
 
     /// Of irradiances under a sun `zenith_angle` radians from the zenith; `air_mass` is the relative one, `normal` the irradiance outside the
     /// atmosphere in W/m².
@@ -101,6 +108,15 @@ pub struct PerezSky {
 impl PerezSky {
     /// The sky of a clearness under a sun `zenith_angle` radians from the zenith.
     pub fn new(clearness: &Clearness, zenith_angle: f64) -> Self {
+        let Self { mut parameters } = Self::unlimited(clearness, zenith_angle);
+        // Weather that no sky has would make the horizon or the sun's far side brighter without end.
+        parameters[1] = parameters[1].min(0.0);
+        parameters[3] = parameters[3].min(0.0);
+        Self { parameters }
+    }
+
+    /// The same with the parameters as the paper's tables give them, whatever the weather (as Radiance's gendaymtx has them).
+    pub fn unlimited(clearness: &Clearness, zenith_angle: f64) -> Self {
         let class = clearness.class();
         // The model is not meant for dark skies of middling clearness, where its luminances would turn negative (as Radiance's gendaylit does).
         let is_middling = clearness.clearness > CLASSES[0] && clearness.clearness < CLASSES[4];
@@ -112,18 +128,24 @@ impl PerezSky {
             parameters[2] = (delta * (c1 + c2 * zenith_angle)).powf(c3).exp() - c4;
             parameters[3] = d3 + delta * d4 - (delta * (d1 + d2 * zenith_angle)).exp();
         }
-        // Weather that no sky has would make the horizon or the sun's far side brighter without end.
-        parameters[1] = parameters[1].min(0.0);
-        parameters[3] = parameters[3].min(0.0);
         Self { parameters }
     }
 
     /// Luminance in units of its own, towards a direction whose height above the horizon has a sine of `up` (0 to 1) and that is `angle` radians
     /// from the sun.
     pub fn relative_luminance(&self, up: f64, angle: f64) -> f64 {
-        let [a, b, c, d, e] = self.parameters;
-        let graded = 1.0 + a * (b / up.max(0.01)).exp();
-        let scattered = 1.0 + c * (d * angle).exp() + e * angle.cos() * angle.cos();
-        (graded * scattered).max(0.0)
+        (self.gradation(up.max(0.01)) * self.indicatrix(angle)).max(0.0)
+    }
+
+    /// The factor of height above the horizon, whose sine is `up` (above 0).
+    pub fn gradation(&self, up: f64) -> f64 {
+        let [a, b, ..] = self.parameters;
+        1.0 + a * (b / up).exp()
+    }
+
+    /// The factor of the angle from the sun in radians.
+    pub fn indicatrix(&self, angle: f64) -> f64 {
+        let [.., c, d, e] = self.parameters;
+        1.0 + c * (d * angle).exp() + e * angle.cos() * angle.cos()
     }
 }

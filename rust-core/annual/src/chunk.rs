@@ -1,0 +1,12 @@
+//! A chunk of a year's steps at all points.
+
+/// What a chunk of steps brings: `[point][step]` in lx.
+#[derive(Debug)]
+pub struct Chunk<'a> {
+    /// The steps, all of them with light; in those that no chunk names it is dark.
+    pub steps: &'a [usize],
+    /// Sky and sun, with blinds as they are operated.
+    pub total: &'a [f32],
+    /// The sun alone, through open blinds; `None` where it is not known.
+    pub direct: Option<&'a [f32]>,
+}

@@ -1,0 +1,78 @@
+//! A year at the points of a grid: chunks of steps go through sky, product and metrics, so that memory does not grow with the year.
+
+mod columns;
+mod prepared;
+mod shape;
+
+use crate::{
+    chunk::Chunk,
+    daylight_factor,
+    error::Result,
+    group::Group,
+    metrics::{Counts, Grid, Half, Variant},
+    schedule::Schedule,
+    sky::{Light, Quantity, SkyMatrix, SkyOptions},
+    year::Year,
+};
+use prepared::Prepared;
+
+/// Fewest steps of a chunk.
+const LEAST_STEPS: usize = 16;
+
+/// How a year is calculated.
+#[derive(Clone, Copy, Debug)]
+pub struct Settings {
+    /// The sky; it is in cd/m², and its light and division follow from the coefficients.
+    pub sky: SkyOptions,
+    /// Bytes that the columns and products of a chunk may take, beside the coefficients.
+    pub memory: usize,
+    /// Threads.
+    pub threads: usize,
+}
+
+/// Calculates a grid by its groups of windows, whose light adds up. `take` sees every chunk, and stops the calculation by `false`: then there is
+/// no result.
+///
+/// # Errors
+/// Coefficients that fit neither each other nor the year, and settings out of their range.
+pub fn evaluate(
+    year: &Year,
+    schedule: &Schedule,
+    groups: &[Group],
+    settings: &Settings,
+    take: &mut dyn FnMut(&Chunk<'_>) -> bool,
+) -> Result<Option<Grid>> {
+    let shape = shape::shape(groups, year)?;
+    let options = SkyOptions { factor: shape.factor, quantity: Quantity::Luminance, ..settings.sky };
+    let all = SkyMatrix::new(year, SkyOptions { light: Light::All { sun_patches: 4 }, ..options })?;
+    let alone = SkyMatrix::new(year, SkyOptions { light: Light::SunAlone { sun_patches: 4 }, ..options })?;
+    let sky = SkyMatrix::new(year, SkyOptions { light: Light::WithoutSun, ..options })?;
+    let half = Half::of(&all);
+    let mut variants: Vec<(Vec<Prepared>, Counts)> = std::iter::once(None)
+        .chain((0..shape.blocks).filter(|_| shape.blocks > 1).map(Some))
+        .map(|without| (Prepared::all(groups, without), Counts::new(shape.points)))
+        .collect();
+    let lit: Vec<usize> = (0..year.steps.len()).filter(|step| all.conditions(*step).is_some()).collect();
+    let skies = columns::Skies { all: &all, alone: &alone, sky: &sky, suns: &shape.suns };
+    for steps in lit.chunks(steps_of_a_chunk(settings, &shape, groups)) {
+        let columns = columns::Columns::new(&skies, groups, &shape, steps, settings.threads);
+        for (index, (prepared, counts)) in variants.iter_mut().enumerate() {
+            let (total, direct) = prepared::light(prepared, &columns, settings.threads);
+            let chunk = Chunk { steps, total: &total, direct: direct.as_deref() };
+            if index == 0 && !take(&chunk) {
+                return Ok(None);
+            }
+            counts.add(&chunk, schedule, &half);
+        }
+    }
+    let factors = daylight_factor::of_points(groups, &options, shape.blocks)?;
+    let variants = variants.into_iter().zip(factors).map(|((_, counts), factors)| Variant { counts, factors }).collect::<Vec<_>>();
+    Ok(Some(Grid::new(&variants, year, schedule, &half, shape.has_direct)))
+}
+
+/// As many steps as fit into the memory.
+fn steps_of_a_chunk(settings: &Settings, shape: &shape::Shape, groups: &[Group]) -> usize {
+    let columns = 3 * (144 * (shape.factor * shape.factor) as usize + 2);
+    let products = shape.points * (2 + 3 * groups.len());
+    (settings.memory / (4 * (columns + products))).max(LEAST_STEPS)
+}

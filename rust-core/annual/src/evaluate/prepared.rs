@@ -1,0 +1,122 @@
+//! What light groups of windows let in, and when their blinds are closed.
+
+use super::columns::Columns;
+use crate::{
+    Coefficients,
+    group::{Blinds, Group},
+    product::Panels,
+};
+
+/// Direct sun that has blinds closed, lx (LM-83-12).
+const TOO_BRIGHT: f32 = 1000.0;
+/// Blinds close when more than this share of the points has it.
+const TOO_MANY: f64 = 0.02;
+
+/// A group's matrices as products take them.
+pub(super) struct Prepared {
+    open: Panels,
+    direct: Option<Direct>,
+    sun: Option<Direct>,
+    blinds: Option<Closed>,
+}
+
+enum Direct {
+    Patches(Panels),
+    /// `[point][sun]`.
+    Suns(Vec<f32>, usize),
+}
+
+enum Closed {
+    Share(f32),
+    Panels(Panels),
+}
+
+impl Prepared {
+    /// All groups, without one of the blocks if that is asked for.
+    pub(super) fn all(groups: &[Group], without: Option<usize>) -> Vec<Self> {
+        let panels = |of: &Coefficients| Panels::new(of.points, of.columns, &mean(of, without));
+        let prepare = |group: &Group| Self {
+            open: panels(&group.open),
+            direct: group.direct.as_ref().map(|direct| {
+                if direct.columns == group.open.columns {
+                    Direct::Patches(panels(direct))
+                } else {
+                    Direct::Suns(mean(direct, without), direct.columns)
+                }
+            }),
+            sun: group.sun.as_ref().map(|sun| Direct::Suns(mean(sun, without), sun.columns)),
+            blinds: group.blinds.as_ref().map(|blinds| match blinds {
+                Blinds::Share(share) => Closed::Share(*share),
+                Blinds::Coefficients(closed) => Closed::Panels(panels(closed)),
+            }),
+        };
+        groups.iter().map(prepare).collect()
+    }
+}
+
+/// Matrices of a single block stay whole.
+fn mean(of: &Coefficients, without: Option<usize>) -> Vec<f32> {
+    of.mean(without.filter(|_| of.blocks.len() > 1))
+}
+
+impl Direct {
+    fn light(&self, columns: &Columns, threads: usize) -> Vec<f32> {
+        match self {
+            Self::Patches(panels) => panels.times(&columns.alone, threads),
+            Self::Suns(rows, count) => {
+                let at = |row: &[f32], sun: &Option<(usize, f32)>| sun.map_or(0.0, |(column, luminance)| row[column] * luminance);
+                rows.chunks_exact(*count).flat_map(|row| columns.suns.iter().map(move |sun| at(row, sun))).collect()
+            }
+        }
+    }
+}
+
+/// Light of all groups at `[point][step]` in lx: of sky and sun with blinds as they are operated, and of the sun alone through open ones.
+pub(super) fn light(groups: &[Prepared], columns: &Columns, threads: usize) -> (Vec<f32>, Option<Vec<f32>>) {
+    let steps = columns.suns.len();
+    let (mut total, mut direct): (Vec<f32>, Option<Vec<f32>>) = (Vec::new(), None);
+    for group in groups {
+        let mut light = match &group.sun {
+            Some(sun) => sum(group.open.times(&columns.sky, threads), &sun.light(columns, threads)),
+            None => group.open.times(&columns.all, threads),
+        };
+        let of_sun = group.direct.as_ref().map(|direct| direct.light(columns, threads));
+        if let (Some(blinds), Some(of_sun)) = (&group.blinds, &of_sun) {
+            close(&mut light, blinds, &closed(of_sun, steps), columns, threads);
+        }
+        total = if total.is_empty() { light } else { sum(total, &light) };
+        direct = match (direct, of_sun) {
+            (Some(others), Some(of_sun)) => Some(sum(others, &of_sun)),
+            (others, of_sun) => others.or(of_sun),
+        };
+    }
+    (total, direct.filter(|_| groups.iter().all(|group| group.direct.is_some())))
+}
+
+fn sum(mut to: Vec<f32>, other: &[f32]) -> Vec<f32> {
+    to.iter_mut().zip(other).for_each(|(value, other)| *value += other);
+    to
+}
+
+/// In which steps a group's blinds are closed.
+fn closed(direct: &[f32], steps: usize) -> Vec<bool> {
+    let mut bright = vec![0_usize; steps];
+    for row in direct.chunks_exact(steps) {
+        bright.iter_mut().zip(row).for_each(|(count, value)| *count += usize::from(*value >= TOO_BRIGHT));
+    }
+    let points = direct.len() / steps;
+    bright.into_iter().map(|count| count as f64 > TOO_MANY * points as f64).collect()
+}
+
+/// Takes what closed blinds leave in the steps in which they are closed.
+fn close(light: &mut [f32], blinds: &Closed, closed: &[bool], columns: &Columns, threads: usize) {
+    if !closed.contains(&true) {
+        return;
+    }
+    let dimmed = match blinds {
+        Closed::Share(share) => light.iter().map(|value| value * share).collect(),
+        Closed::Panels(panels) => panels.times(&columns.all, threads),
+    };
+    let steps = closed.iter().cycle();
+    light.iter_mut().zip(dimmed).zip(steps).filter(|(_, closed)| **closed).for_each(|((value, dimmed), _)| *value = dimmed);
+}

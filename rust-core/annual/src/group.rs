@@ -1,0 +1,25 @@
+//! Groups of windows and their blinds.
+
+use crate::Coefficients;
+
+/// What blinds leave of a group's light when they are closed.
+#[derive(Clone, Debug)]
+pub enum Blinds {
+    /// This share of the light through open ones; 0.02 is usual.
+    Share(f32),
+    /// Coefficients of their own.
+    Coefficients(Coefficients),
+}
+
+/// Windows whose blinds are operated together.
+#[derive(Clone, Debug)]
+pub struct Group {
+    /// Of all light, blinds open: points × patches.
+    pub open: Coefficients,
+    /// Of direct light alone: points × patches, or points × suns, a column for each step with the sun above the horizon.
+    pub direct: Option<Coefficients>,
+    /// Of the sun's light with all its bounces: points × suns. Where it is given, the sun leaves the patches.
+    pub sun: Option<Coefficients>,
+    /// The blinds, which direct sun closes; `None` where there are none.
+    pub blinds: Option<Blinds>,
+}
