@@ -353,9 +353,9 @@ def test_inactive_abstract_and_undefined_prims_are_not_shown(tmp_path):
 
 
 def test_unsupported_types_are_named_once(tmp_path):
-    scene = read(tmp_path, 'def Volume "a" {}\ndef Volume "b" {}\n')
+    scene = read(tmp_path, 'def ParticleField3DGaussianSplat "a" {}\ndef ParticleField3DGaussianSplat "b" {}\n')
     messages = [message for _, message in scene.diagnostics]
-    assert sum("Volume is not supported" in message and "2 places" in message for message in messages) == 1
+    assert sum("GaussianSplat is not supported" in message and "2 places" in message for message in messages) == 1
 
 
 def skinned(path):

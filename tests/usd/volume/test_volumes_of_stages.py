@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 import vdb_file
+from small_scenes import finished
 
 gonio = pytest.importorskip("gonio")
 pytest.importorskip("pxr")
@@ -335,3 +336,41 @@ def test_constant_primvars_count(tmp_path):
     body = 'float primvars:strength = 4 (interpolation = "constant")'
     scene, told = load(tmp_path, scaled + volume(body=body))
     assert medium(scene)["absorption"] == pytest.approx([40] * 3) and not told
+
+
+VIEW = """def Camera "C" {
+    token projection = "orthographic"
+    float horizontalAperture = 0.01
+    float verticalAperture = 0.01
+    float2 clippingRange = (0.01, 1000)
+    double3 xformOp:translate = (3.5, 3.5, 20)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+"""
+
+
+@pytest.mark.parametrize("fire", [False, True])
+def test_pictures_show_what_the_grid_says(tmp_path, fire):
+    """Down the middle of a grid of 8³ voxels of 1: e to the power of minus eight times the coefficient; its glow by the square of the heat, 3 at
+    most, by the midpoint rule in small steps."""
+    vdb_file.write(tmp_path / "cloud.vdb", ("density", np.ones((8, 8, 8))), ("heat", np.full((8, 8, 8), 3.0)))
+    shining = [shader("E", "ND_uniform_edf", color="P"), shader("P", "ND_power_vector3FA", in1="H", in2=("float", "2")),
+               shader("H", "ND_geompropvalue_vector3", geomprop=("string", '"heat"'))]  # fmt: skip
+    volume_shader = shader("S", "ND_volume", vdf="V", edf="E") if fire else shader("S", "ND_volume", vdf="V")
+    look = material(volume_shader, shader("V", "ND_absorption_vdf", absorption="A"), times("A", "D", "(0.05, 0.1, 0.2)"), field("D", "density"),
+                    *(shining if fire else []))  # fmt: skip
+    sky = "" if fire else 'def DomeLight "Sky" { float inputs:intensity = 1\n}\n'
+    (tmp_path / "stage.usda").write_text(HEADER + look + volume() + VIEW + sky)
+    scene = gonio.load_usd(str(tmp_path / "stage.usda"), camera_light=False)
+    scene.set(width=16, height=16, samples=64, filter="box", passes=["color"], caustics="off")
+    pixels = np.asarray(finished(scene)["color"])[..., :3].reshape(-1, 3).astype(np.float64)
+    found, error = pixels.mean(0), pixels.std(0) / 16
+    coefficients = np.array([0.05, 0.1, 0.2])
+    expected = np.exp(-8 * coefficients)
+    if fire:
+        along = (np.arange(90000) + 0.5) / 10000 - 1
+        filled = np.clip(np.minimum(along + 1, 8 - along), 0, 1)
+        depth = np.cumsum(filled) / 10000
+        expected = ((3 * filled[:, None]) ** 2 * np.exp(-depth[:, None] * coefficients)).sum(0) / 10000
+    assert (np.abs(found - expected) < 4.5 * error + 0.002 * expected).all(), (found, error, expected)
+    assert (error < 0.02 * expected).all()
