@@ -3,7 +3,7 @@
 use crate::{
     error::Diagnostic,
     scene::{BRICK, Field, Lattice, Scene},
-    transport::{FieldLayout, FieldTable, GLOW, Numbers, POINTS},
+    transport::{FieldLayout, FieldRow, FieldTable, GLOW, Numbers, POINTS},
 };
 use std::collections::HashMap;
 
@@ -37,21 +37,46 @@ impl KeptFields {
 
 /// Fields laid out, row 1 on, and which can be used; the others are told and stay empty.
 pub(super) fn compile(scene: &Scene, before: &KeptFields, diagnostics: &mut Vec<Diagnostic>) -> (FieldTable, Vec<bool>) {
+    let alike = alike(&scene.fields);
     let mut filled = 0;
-    let mut usable = |field: &Field| match problem(field, &mut filled) {
+    let mut usable = |(field, alike): (&Field, &Option<usize>)| match problem(field, alike.is_none().then_some(&mut filled)) {
         Some(problem) => {
             diagnostics.push(Diagnostic::warning(&field.origin, format!("{problem}; the volume is left out")));
             false
         }
         None => true,
     };
-    let kept: Vec<bool> = scene.fields.iter().map(&mut usable).collect();
+    let mut kept: Vec<bool> = scene.fields.iter().zip(&alike).map(&mut usable).collect();
+    for number in 0..kept.len() {
+        kept[number] &= alike[number].is_none_or(|first| kept[first]);
+    }
     if before.is_of(scene, &kept) {
         return (before.table.clone(), kept);
     }
-    let laid: Vec<Option<Laid<'_>>> = scene.fields.iter().zip(&kept).map(|(field, kept)| kept.then(|| Laid::new(field))).collect();
-    let layouts: Vec<Option<FieldLayout<'_>>> = laid.iter().map(|laid| laid.as_ref().map(Laid::layout)).collect();
-    (FieldTable::new(&layouts), kept)
+    let numbers = 0..scene.fields.len();
+    let lay = |number: usize| (kept[number] && alike[number].is_none()).then(|| Laid::new(&scene.fields[number]));
+    let laid: Vec<Option<Laid<'_>>> = numbers.clone().map(lay).collect();
+    let row = |number: usize| match (&laid[number], alike[number]) {
+        (Some(laid), _) => FieldRow::New(laid.layout()),
+        (None, Some(number)) => FieldRow::Alike(number as u32 + 1),
+        (None, None) => FieldRow::Empty,
+    };
+    let rows: Vec<FieldRow<'_>> = numbers.map(row).collect();
+    (FieldTable::new(&rows), kept)
+}
+
+/// By field, the first one before it that has the same numbers.
+fn alike(fields: &[Field]) -> Vec<Option<usize>> {
+    let mut known: HashMap<*const f32, Vec<usize>> = HashMap::new();
+    let mut find = |(number, field): (usize, &Field)| {
+        let same = known.entry(field.density.values.as_ptr()).or_default();
+        let first = same.iter().copied().find(|other| fields[*other].holds_arrays_of(field));
+        if first.is_none() && field.to_world.inverse().is_some() {
+            same.push(number);
+        }
+        first
+    };
+    fields.iter().enumerate().map(|(number, field)| find((number, field))).collect()
 }
 
 /// Tells where fields lie, in world space rebased to an origin.
@@ -67,8 +92,8 @@ pub(super) fn place(scene: &Scene, origin: [f64; 3], table: &mut FieldTable) {
     }
 }
 
-/// What makes a field useless.
-fn problem(field: &Field, filled: &mut usize) -> Option<String> {
+/// What makes a field useless; `filled` counts the bricks of those that are laid out.
+fn problem(field: &Field, filled: Option<&mut usize>) -> Option<String> {
     let [min, max] = field.domain();
     let is_box = (0..3).all(|axis| min[axis].is_finite() && max[axis].is_finite() && min[axis] < max[axis]);
     if field.to_world.inverse().is_none() || !is_box {
@@ -82,6 +107,7 @@ fn problem(field: &Field, filled: &mut usize) -> Option<String> {
     if bricks > MOST_BRICKS {
         return Some(format!("its box has {bricks} bricks of 8³ voxels, at most {MOST_BRICKS} are laid out: resample it"));
     }
+    let filled = filled?;
     // The neighbours on the side of lesser coordinates of each brick vary with it.
     *filled += lattices().map(|lattice| (lattice.bricks.len() + lattice.blocks.len()) * 2).sum::<usize>();
     (*filled > MOST_FILLED)
@@ -205,5 +231,27 @@ impl Numbers for Places<'_> {
             }
         }
         None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Transform;
+
+    #[test]
+    fn fields_of_the_same_numbers_share_their_bricks() {
+        let values: Vec<f32> = (0..20 * 20 * 20).map(|n| (n % 7) as f32).collect();
+        let density = Lattice::of_values(&values, [20; 3]).expect("as many values as voxels");
+        let field = Field { density, ..Field::default() };
+        let memory = |fields: Vec<Field>| {
+            let mut diagnostics = Vec::new();
+            let (table, usable) = compile(&Scene { fields, ..Scene::default() }, &KeptFields::default(), &mut diagnostics);
+            (table.memory(), usable, diagnostics.len())
+        };
+        let moved = Field { to_world: Transform::translation([3.0, 0.0, 0.0]), ..field.clone() };
+        let flat = Field { to_world: Transform::scale(0.0), ..field.clone() };
+        let (once, ..) = memory(vec![field.clone()]);
+        assert_eq!(memory(vec![flat, field, moved]), (once, vec![false, true, true], 1));
     }
 }

@@ -44,6 +44,17 @@ pub struct FieldLayout<'a> {
     pub hottest: f32,
 }
 
+/// How a field comes into the table.
+#[derive(Debug)]
+pub enum FieldRow<'a> {
+    /// It is laid out.
+    New(FieldLayout<'a>),
+    /// It has the numbers of the field of a row before, and may lie elsewhere.
+    Alike(u32),
+    /// It stays empty.
+    Empty,
+}
+
 /// All of a scene, whose clones share their bricks. Row 0 is an empty field.
 #[derive(Clone, Debug)]
 pub struct FieldTable {
@@ -72,13 +83,14 @@ impl Default for FieldTable {
 }
 
 impl FieldTable {
-    /// Lays fields out, in their order from row 1 on; those that are missing stay empty.
-    pub fn new(fields: &[Option<FieldLayout<'_>>]) -> Self {
+    /// Lays fields out, in their order from row 1 on.
+    pub fn new(fields: &[FieldRow<'_>]) -> Self {
         let mut layout = Layout::default();
         for field in fields {
             match field {
-                Some(field) => layout.add(field),
-                None => layout.add_empty(),
+                FieldRow::New(field) => layout.add(field),
+                FieldRow::Alike(row) => layout.repeat(*row as usize),
+                FieldRow::Empty => layout.repeat(0),
             }
         }
         layout.table()
@@ -147,11 +159,12 @@ impl Layout {
         self.glow.extend(field.glow.iter().flat_map(|[r, g, b]| [*r, *g, *b, 0.0]));
     }
 
-    fn add_empty(&mut self) {
-        let rows = self.to_lattice.iter_mut().chain(&mut self.domain);
-        rows.for_each(|rows| rows.extend([0.0; ROW]));
-        self.bricks.extend([1, 1, 0, 0]);
-        self.coarse.extend([1, 1, 0, 0]);
+    /// Adds a field with the numbers of one before.
+    fn repeat(&mut self, row: usize) {
+        let row = row * ROW..(row + 1) * ROW;
+        self.to_lattice.iter_mut().chain(&mut self.domain).for_each(|rows| rows.extend_from_within(row.clone()));
+        self.bricks.extend_from_within(row.clone());
+        self.coarse.extend_from_within(row);
     }
 
     /// Adds the bricks of a lattice and gives the number of the first.
