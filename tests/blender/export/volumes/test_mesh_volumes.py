@@ -3,11 +3,13 @@
 import pytest
 
 
-def cube(material, size=2.0):
-    """A cube about the origin."""
+def cube(material, along=16):
+    """A cube about the origin, whose shader is asked at so many points along the longest edge."""
     import bpy
+    from recorder import module
 
-    bpy.ops.mesh.primitive_cube_add(size=size)
+    module("export.volumes.bounds").ALONG = along
+    bpy.ops.mesh.primitive_cube_add(size=2.0)
     thing = bpy.context.object
     thing.data.materials.append(material)
     return thing
@@ -54,7 +56,7 @@ def test_coordinates_are_right_at_each_point(output):
     assert "field" not in mesh and len(mesh["points"]) >= 8
     described = scene.materials[instance["materials"][0]]
     assert described["medium"]["field"] == 0 and [each["model"] for each in described["closures"]] == ["Transparent"]
-    assert field["density"].shape == (128, 128, 128) and field["heat"] is None
+    assert field["density"].shape == (16, 16, 16) and field["heat"] is None
     # Coefficients are a metre of the world, whatever the object's scale.
     found, places = along_x(field)
     found = found * described["medium"]["scattering"][0] / 0.8
@@ -90,14 +92,12 @@ def test_instances_share_numbers_and_have_fields_of_their_own():
     import bpy
     import numpy as np
     from clouds import exported
-    from recorder import empty, link, module
+    from recorder import empty, link
 
     empty()
     thing = cube(by_place("Object")[0])
     for number in range(3):
         link(bpy.data.objects.new("Other", thing.data)).location.x = 3.0 * number + 3.0
-    bounds = module("export.volumes.bounds")
-    bounds.ALONG = 16
     _, scene, lines = exported()
     assert not lines and len(scene.fields) == len(scene.instances) == 4
     assert all(np.array_equal(field["density"], scene.fields[0]["density"]) for field in scene.fields)
@@ -122,7 +122,7 @@ def test_too_many_placements_are_even_and_told():
     for number in range(6):
         bearer = link(bpy.data.objects.new("Bearer", None))
         bearer.instance_type, bearer.instance_collection, bearer.location = "COLLECTION", inner, (3 * number, 0, 0)
-    module("export.volumes.bounds").ALONG, module("export.volumes.insides").MOST_PLACEMENTS = 8, 4
+    module("export.volumes.insides").MOST_PLACEMENTS = 4
     _, scene, lines = exported()
     assert len(lines) == 1 and "64 placements" in lines[0]
     assert len(scene.fields) == 4 and sorted(len(each["transforms"]) for each in scene.instances) == [1, 1, 1, 1, 2]
@@ -147,8 +147,8 @@ def test_emission_by_place_is_heat():
     _, scene, lines = exported()
     (field,), medium = scene.fields, scene.materials[scene.instances[0]["materials"][0]]["medium"]
     assert not lines and np.allclose(field["density"] * medium["scattering"][0], 1.0)
-    sent = field["heat"][64, 64, 64] * np.array(medium["emission"])
-    assert np.allclose(sent, 177.83 * 0.5 * np.array([1.0, 0.5, 0.25]), rtol=0.02) and not field["glow"]
+    sent = field["heat"][8, 8, 8] * np.array(medium["emission"])
+    assert np.allclose(sent, 177.83 * 8.5 / 16 * np.array([1.0, 0.5, 0.25]), rtol=0.02) and not field["glow"]
 
 
 @pytest.mark.blender
@@ -158,7 +158,6 @@ def test_updates_write_what_changed_alone():
     from recorder import depsgraph, empty, link, module
 
     empty()
-    module("export.volumes.bounds").ALONG = 16
     filling = module("export.volumes.insides")
     asked, ask = [], filling.fill
     filling.fill = lambda *arguments: asked.append(1) or ask(*arguments)
@@ -204,10 +203,9 @@ def test_what_follows_another_object_is_asked_when_that_moves():
     import bpy
     import numpy as np
     from clouds import exported, filled, followed
-    from recorder import empty, link, module
+    from recorder import empty, link
 
     empty()
-    module("export.volumes.bounds").ALONG = 16
     made, tree, shader = filled("VolumeScatter", Color=(1.0, 1.0, 1.0, 1.0))
     place, apart = tree.nodes.new("ShaderNodeTexCoord"), tree.nodes.new("ShaderNodeSeparateXYZ")
     place.object = link(bpy.data.objects.new("Empty", None))
