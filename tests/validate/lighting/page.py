@@ -54,6 +54,8 @@ Without figures here, each with its bounds in the test:
 
 - shapes of lights under all of UsdLux's parameters against quadrature, by frame of luxtest's stages: `tests/usd/light/test_luxtest.py`
 - sampling, density and value of every light at every SIMD level: `rust-core/light/src/tests`
+- media: half-spaces by Chandrasekhar's functions, slabs and airlight once scattered, furnaces, balls that keep the flux of their lamp; those that vary
+  against quadrature, even ones and furnaces: `tests/python/test_media.py`, `tests/python/test_fields.py`, `tests/usd/volume`
 - closed forms of the film, the white furnace inside a shining box, absorbing glass: `tests/rust/analytic.rs`
 - readers and writers of photometric files, their bad input and their flux: `rust-core/formats/tests/photometry`
 - daylight from USD, the command line and Blender: `tests/usd/light/test_daylight_stage.py`, `tests/blender/export/light/test_export_daylight.py`

@@ -44,7 +44,7 @@ def alike(path, channels=3, mean=0.03, block=0.12):
 
 
 @pytest.mark.blender(seconds=900)
-@pytest.mark.parametrize("space", ["OBJECT", "WORLD"])
+@pytest.mark.parametrize("space", ["OBJECT", pytest.param("WORLD", marks=pytest.mark.validate)])
 def test_a_cloud_in_sun_and_lamp(tmp_path, space):
     from clouds import ball, cloud, filled, stored
 
