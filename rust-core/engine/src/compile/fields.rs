@@ -57,7 +57,7 @@ pub(super) fn compile(scene: &Scene, before: &KeptFields, diagnostics: &mut Vec<
     let lay = |number: usize| (kept[number] && alike[number].is_none()).then(|| Laid::new(&scene.fields[number]));
     let laid: Vec<Option<Laid<'_>>> = numbers.clone().map(lay).collect();
     let row = |number: usize| match (&laid[number], alike[number]) {
-        (Some(laid), _) => FieldRow::New(laid.layout()),
+        (Some(laid), _) => FieldRow::New(Box::new(laid.layout())),
         (None, Some(number)) => FieldRow::Alike(number as u32 + 1),
         (None, None) => FieldRow::Empty,
     };

@@ -34,10 +34,12 @@ impl<L: Lanes> PhaseMix<L> {
     /// That of the even media which rays are in.
     #[inline(always)]
     pub(crate) fn of(l: L, media: MediaSet<L>, table: &MediumTable) -> Self {
-        let even = media.rows().map(
-            #[inline(always)]
-            |row| row.map_or(l.f(0.0), |row| l.f(1.0).keep_if(table.field(l, row).eq(0))),
-        );
+        let mut even = [l.f(1.0); 4];
+        if table.varies() {
+            for (even, row) in even.iter_mut().zip(media.rows()) {
+                *even = row.map_or(*even, |row| even.keep_if(table.field(l, row).eq(0)));
+            }
+        }
         Self::at(l, media, table, even)
     }
 

@@ -48,7 +48,7 @@ pub struct FieldLayout<'a> {
 #[derive(Debug)]
 pub enum FieldRow<'a> {
     /// It is laid out.
-    New(FieldLayout<'a>),
+    New(Box<FieldLayout<'a>>),
     /// It has the numbers of the field of a row before, and may lie elsewhere.
     Alike(u32),
     /// It stays empty.
