@@ -51,18 +51,16 @@ impl<L: Lanes> FieldRays<L> {
             |[x, y, z, _]| Vec3::new(x, y, z),
         );
         let moved = Vec3::new(rows[0][3], rows[1][3], rows[2][3]);
-        let turned = |v: Vec3<L>| Vec3::new(x.dot(v), y.dot(v), z.dot(v));
         let [low, high] = [0, 1].map(
             #[inline(always)]
             |end| l.gather_quads(&table.domain[end], at),
         );
-        let direction = turned(direction);
-        let safe = |x: F<L>| x.abs().max(1e-20).copysign(x).recip();
+        let direction = turned([x, y, z], direction);
         Self {
             field,
-            origin: turned(origin) + moved,
+            origin: turned([x, y, z], origin) + moved,
             direction,
-            inverse: Vec3::new(safe(direction.x), safe(direction.y), safe(direction.z)),
+            inverse: Vec3::new(inverse(direction.x), inverse(direction.y), inverse(direction.z)),
             domain: [Vec3::new(low[0], low[1], low[2]), Vec3::new(high[0], high[1], high[2])],
             hottest: low[3],
             bricks: l.gather_integer_quads(&table.bricks, at),
@@ -100,21 +98,15 @@ impl<L: Lanes> FieldRays<L> {
             #[inline(always)]
             |x| x.max(0.0).to_i32(),
         );
-        let brick = |shift: u32, shape: &[U<L>; 4]| ((x >> shift) * shape[0] + (y >> shift)) * shape[1] + (z >> shift);
-        let block = brick(LOG2_BRICK + LOG2_COARSE, &self.coarse) + self.coarse[2];
+        let at = [x, y, z];
+        let block = number(at, LOG2_BRICK + LOG2_COARSE, self.coarse);
         let filled = l.gather(&table.filled, block.keep_if(inside)).gt(0.0) & inside;
-        let fine = (brick(LOG2_BRICK, &self.bricks) + self.bricks[2]).keep_if(filled);
+        let fine = number(at, LOG2_BRICK, self.bricks).keep_if(filled);
         let most = l.gather(&table.bounds, fine * ROW as u32 + 2).keep_if(filled);
         let edge = filled.select(l.u(1 << LOG2_BRICK), l.u(1 << (LOG2_BRICK + LOG2_COARSE)));
-        // The face that each axis leaves by, cut off at the box's.
-        let exit = |x: U<L>, low: F<L>, high: F<L>, origin: F<L>, direction: F<L>, inverse: F<L>| {
-            let first = x & (l.u(0) - edge);
-            let face = direction.gt(0.0).select((first + edge).i32_to_float().min(high), first.i32_to_float().max(low));
-            (face - origin) * inverse
-        };
-        let leaving = exit(x, low.x, high.x, self.origin.x, self.direction.x, self.inverse.x)
-            .min(exit(y, low.y, high.y, self.origin.y, self.direction.y, self.inverse.y))
-            .min(exit(z, low.z, high.z, self.origin.z, self.direction.z, self.inverse.z));
+        let leaving = leaving(x, edge, [low.x, high.x], [self.origin.x, self.inverse.x])
+            .min(leaving(y, edge, [low.y, high.y], [self.origin.y, self.inverse.y]))
+            .min(leaving(z, edge, [low.z, high.z], [self.origin.z, self.inverse.z]));
         let exit = inside.select(leaving, self.entry(l, distance)).max(distance + self.step);
         Cell { most, exit }
     }
@@ -186,16 +178,46 @@ impl<L: Lanes> FieldRays<L> {
     }
 }
 
+/// A vector in the space whose axes these rows ask for.
+#[inline(always)]
+fn turned<L: Lanes>([x, y, z]: [Vec3<L>; 3], v: Vec3<L>) -> Vec3<L> {
+    Vec3::new(x.dot(v), y.dot(v), z.dot(v))
+}
+
+/// One over a number, very large where that is 0.
+#[inline(always)]
+fn inverse<L: Lanes>(x: F<L>) -> F<L> {
+    x.abs().max(1e-20).copysign(x).recip()
+}
+
+/// The number of the brick that holds a cell, of edges of so many cells as a power of two, by a row of the table.
+#[inline(always)]
+fn number<L: Lanes>([x, y, z]: [U<L>; 3], log2: u32, [ny, nz, first, _]: [U<L>; 4]) -> U<L> {
+    ((x >> log2) * ny + (y >> log2)) * nz + (z >> log2) + first
+}
+
+/// Metres at which rays leave a cube of cells along an axis, cut off at the box's faces.
+#[inline(always)]
+fn leaving<L: Lanes>(cell: U<L>, edge: U<L>, [low, high]: [F<L>; 2], [origin, inverse]: [F<L>; 2]) -> F<L> {
+    let first = cell & (cell.lanes().u(0) - edge);
+    // Not by the direction: where that is 0, its inverse is large and positive.
+    let face = inverse.gt(0.0).select((first + edge).i32_to_float().min(high), first.i32_to_float().max(low));
+    (face - origin) * inverse
+}
+
 /// The trilinear value at a place of the lattice whose bricks begin at one.
 #[inline(always)]
 fn value<L: Lanes>(l: L, table: &FieldTable, place: &Place<L>, first: U<L>) -> F<L> {
     let [least, span, _, words] = l.gather_quads(&table.bounds, (place.brick + first) * ROW as u32);
     let at = words.to_bits() * WORDS as u32 + place.row;
     let Vec3 { x: u, y: v, z: w } = place.part;
-    let row = |offset: u32| {
-        let pair = l.gather_integers(&table.words, at + offset);
-        (pair & 0xffff).i32_to_float().lerp((pair >> 16).i32_to_float(), w)
-    };
-    let code = row(0).lerp(row(8), v).lerp(row(72).lerp(row(80), v), u);
+    let [a, b, c, d] = [0, 8, 72, 80].map(
+        #[inline(always)]
+        |offset| {
+            let pair = l.gather_integers(&table.words, at + offset);
+            (pair & 0xffff).i32_to_float().lerp((pair >> 16).i32_to_float(), w)
+        },
+    );
+    let code = a.lerp(b, v).lerp(c.lerp(d, v), u);
     span.mul_add(code, least)
 }

@@ -37,7 +37,9 @@ impl<L: Lanes> PhaseMix<L> {
         let mut even = [l.f(1.0); 4];
         if table.varies() {
             for (even, row) in even.iter_mut().zip(media.rows()) {
-                *even = row.map_or(*even, |row| even.keep_if(table.field(l, row).eq(0)));
+                if let Some(row) = row {
+                    *even = even.keep_if(table.field(l, row).eq(0));
+                }
             }
         }
         Self::at(l, media, table, even)

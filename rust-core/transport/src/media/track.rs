@@ -62,6 +62,16 @@ impl<L: Lanes> Random<L> {
     }
 }
 
+/// What steps send where nothing does.
+#[inline(always)]
+pub(crate) fn nothing<L: Lanes>(_: F<L>, _: F<L>, _: Spectrum<L>) {}
+
+/// The optical depth of a flight, by a random number.
+#[inline(always)]
+fn depth<L: Lanes>(u: F<L>) -> F<L> {
+    -(1.0 - u).max(1e-9).ln()
+}
+
 /// A seed for a ray from somewhere on; `salt` tells samples apart that send the very same ray.
 #[inline(always)]
 pub(crate) fn seed<L: Lanes>(origin: Vec3<L>, direction: Vec3<L>, from: F<L>, salt: U<L>) -> U<L> {
@@ -71,33 +81,48 @@ pub(crate) fn seed<L: Lanes>(origin: Vec3<L>, direction: Vec3<L>, from: F<L>, sa
     hash2(l, along, salt)
 }
 
+impl<L: Lanes> Part<L> {
+    /// That of some rows; `None` where none of them varies.
+    #[inline(always)]
+    fn new(l: L, table: &MediumTable, row: U<L>, origin: Vec3<L>, direction: Vec3<L>) -> Option<Self> {
+        let field = table.field(l, row);
+        let here = field.ne(0);
+        if !here.any() {
+            return None;
+        }
+        let extinction = table.field_extinction(l, row);
+        Some(Self {
+            rays: FieldRays::new(l, &table.fields, field, origin, direction),
+            extinction,
+            scattering: table.scattering(l, row).keep_if(here),
+            emission: table.emission(l, row).keep_if(here),
+            most: extinction.max_component(),
+        })
+    }
+}
+
 impl<'a, L: Lanes> Track<'a, L> {
     /// Those of rays that are in some media, from their places on; `None` where nothing varies.
     #[inline(always)]
     pub(crate) fn of(l: L, table: &'a MediumTable, media: MediaSet<L>, origin: Vec3<L>, direction: Vec3<L>) -> Option<Self> {
-        if !table.varies() {
-            return None;
-        }
-        let mut parts = [None; 4];
-        let mut varies = l.m(false);
-        for (part, row) in parts.iter_mut().zip(media.rows()) {
-            let Some(row) = row else { continue };
-            let field = table.field(l, row);
-            let here = field.ne(0);
-            if !here.any() {
-                continue;
-            }
-            varies |= here;
-            let extinction = table.field_extinction(l, row);
-            *part = Some(Part {
-                rays: FieldRays::new(l, &table.fields, field, origin, direction),
-                extinction,
-                scattering: table.scattering(l, row).keep_if(here),
-                emission: table.emission(l, row).keep_if(here),
-                most: extinction.max_component(),
-            });
-        }
-        varies.any().then_some(Self { table, parts, varies })
+        if table.varies() && media.varies(table).any() { Some(Self::new(l, table, &media, &[origin, direction])) } else { None }
+    }
+
+    #[inline(never)]
+    fn new(l: L, table: &'a MediumTable, media: &MediaSet<L>, [origin, direction]: &[Vec3<L>; 2]) -> Self {
+        l.vectorize(
+            #[inline(always)]
+            || {
+                let parts = media.rows().map(
+                    #[inline(always)]
+                    |row| match row {
+                        Some(row) => Part::new(l, table, row, *origin, *direction),
+                        None => None,
+                    },
+                );
+                Self { table, parts, varies: media.varies(table) }
+            },
+        )
     }
 
     /// The bound of the extinction behind so many metres, and where it ends to hold.
@@ -119,7 +144,10 @@ impl<'a, L: Lanes> Track<'a, L> {
         let l = distance.lanes();
         self.parts.map(
             #[inline(always)]
-            |part| part.map_or(l.f(0.0), |part| part.rays.density(l, &self.table.fields, distance)),
+            |part| match part {
+                Some(part) => part.rays.density(l, &self.table.fields, distance),
+                None => l.f(0.0),
+            },
         )
     }
 
@@ -141,8 +169,10 @@ impl<'a, L: Lanes> Track<'a, L> {
     pub(crate) fn emission(&self, distance: F<L>) -> Spectrum<L> {
         let l = distance.lanes();
         let mut sum = Spectrum::zero(l);
-        for part in self.parts.iter().flatten().filter(|part| part.emission.is_lit().any()) {
-            sum += part.emission * part.rays.glow(l, &self.table.fields, distance);
+        for part in self.parts.iter().flatten() {
+            if part.emission.is_lit().any() {
+                sum += part.emission * part.rays.glow(l, &self.table.fields, distance);
+            }
         }
         sum
     }
@@ -161,10 +191,12 @@ impl<'a, L: Lanes> Track<'a, L> {
         mut shines: impl FnMut(F<L>, F<L>, Spectrum<L>),
     ) -> Tracked<L> {
         let l = from.lanes();
-        let depth = |u: F<L>| -(1.0 - u).max(1e-9).ln();
         let mut random = Random { seed, count: 0 };
         let (mut t, mut weight) = (from, Spectrum::one(l));
-        let mut flight = depth(scatter.map_or_else(|| random.next(), |(_, u)| u));
+        let mut flight = depth(match scatter {
+            Some((_, u)) => u,
+            None => random.next(),
+        });
         let mut active = chosen & self.varies & from.lt(to);
         let mut scattered = l.m(false);
         for _ in 0..MOST_STEPS {
@@ -207,10 +239,15 @@ impl<'a, L: Lanes> Track<'a, L> {
         Tracked { scatters: scattered, distance: t, weight: lost.select(Spectrum::zero(l), weight) }
     }
 
-    /// What is left of light along the chosen rays; an estimate.
-    #[inline(always)]
+    /// What is left of light along the chosen rays; an estimate, compiled once.
+    #[inline(never)]
     pub(crate) fn transmittance(&self, way: [F<L>; 2], chosen: M<L>, seed: U<L>) -> Spectrum<L> {
-        let left = self.go(way, chosen, None, seed, |_, _, _| {}).weight;
-        (chosen & self.varies).select(left, Spectrum::one(left.lanes()))
+        seed.lanes().vectorize(
+            #[inline(always)]
+            || {
+                let left = self.go(way, chosen, None, seed, nothing).weight;
+                (chosen & self.varies).select(left, Spectrum::one(left.lanes()))
+            },
+        )
     }
 }

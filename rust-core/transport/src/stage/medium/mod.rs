@@ -12,7 +12,7 @@ mod shine;
 mod way;
 
 use crate::accumulate::deposit::Deposits;
-use crate::media::track::{Track, seed};
+use crate::media::track::{Track, nothing, seed};
 use crate::state::nearest::NearestHits;
 use crate::state::paths::Paths;
 use crate::state::queue::Queues;
@@ -57,7 +57,10 @@ fn pass_paths<L: Lanes>(
         light::sample_along(context, &way, going_on.and_not(tracked), &mut queues.shadows, deposits);
         let mut flight = flight::draw(context, &way);
         if let Some(track) = &track {
-            flight = pass_varying(context, (&mut way, track), flight, deposits);
+            flight = match media.shines() {
+                true => pass_shining(context, &mut way, track, &flight, deposits),
+                false => pass_varying(context, &mut way, track, &flight),
+            };
             light::sample_at(context, &way, &flight, going_on & tracked & flight.scatters, &mut queues.shadows, deposits);
         }
         let scattered = way.scatters & flight.scatters;
@@ -67,24 +70,41 @@ fn pass_paths<L: Lanes>(
     }
 }
 
-/// Follows ways through media that vary, and adds what these send.
-#[inline(always)]
-fn pass_varying<L: Lanes>(
+/// Follows ways through media that vary.
+#[inline(never)]
+fn pass_varying<L: Lanes>(context: &MediumContext<'_>, way: &mut Way<L>, track: &Track<'_, L>, even: &Flight<L>) -> Flight<L> {
+    let l = way.pdf.lanes();
+    l.vectorize(
+        #[inline(always)]
+        || flight::track(context, (way, track), *even, nothing),
+    )
+}
+
+/// The same where something shines, which is added.
+#[inline(never)]
+fn pass_shining<L: Lanes>(
     context: &MediumContext<'_>,
-    (way, track): (&mut Way<L>, &Track<'_, L>),
-    even: Flight<L>,
+    way: &mut Way<L>,
+    track: &Track<'_, L>,
+    even: &Flight<L>,
     deposits: &mut Deposits,
 ) -> Flight<L> {
-    if !context.tables.materials.media.shines() {
-        return flight::track(context, (way, track), even, |_, _, _| {});
-    }
-    let mut sent = Spectrum::zero(even.distance.lanes());
-    let along = *way;
-    let flight = flight::track(context, (way, track), even, |place, length, weight| {
-        sent += shine::sent(context, &along, track, place) * weight * length;
-    });
-    shine::deposit(context, way, sent * way.core.throughput, way.scatters & track.varies, deposits);
-    flight
+    let l = way.pdf.lanes();
+    l.vectorize(
+        #[inline(always)]
+        || {
+            let (mut sent, along) = (Spectrum::zero(l), *way);
+            let flight = flight::track(
+                context,
+                (way, track),
+                *even,
+                #[inline(always)]
+                |place, length, weight| sent += shine::sent(context, &along, track, place) * weight * length,
+            );
+            shine::deposit(context, way, sent * way.core.throughput, way.scatters & track.varies, deposits);
+            flight
+        },
+    )
 }
 
 /// For paths that no medium scatters: dims them by what varies before what they hit. What even media leave is told at hits.
@@ -117,7 +137,7 @@ fn pass_light_paths<L: Lanes>(l: L, context: &MediumContext<'_>, paths: &mut Pat
         let Some(mut way) = Way::load(l, media, paths, hits, at).filter(|way| way.scatters.any()) else { continue };
         let mut flight = flight::draw(context, &way);
         if let Some(track) = way.track(media) {
-            flight = flight::track(context, (&mut way, &track), flight, |_, _, _| {});
+            flight = pass_varying(context, &mut way, &track, &flight);
         }
         let scattered = way.scatters & flight.scatters;
         scatter::go_on(context, &way, &flight, scattered & way.going_on(&context.transport.limits), next);
