@@ -73,8 +73,7 @@ fn pass_paths<L: Lanes>(
 /// Follows ways through media that vary.
 #[inline(never)]
 fn pass_varying<L: Lanes>(context: &MediumContext<'_>, way: &mut Way<L>, track: &Track<'_, L>, even: &Flight<L>) -> Flight<L> {
-    let l = way.pdf.lanes();
-    l.vectorize(
+    way.pdf.lanes().vectorize(
         #[inline(always)]
         || flight::track(context, (way, track), *even, nothing),
     )
@@ -89,11 +88,10 @@ fn pass_shining<L: Lanes>(
     even: &Flight<L>,
     deposits: &mut Deposits,
 ) -> Flight<L> {
-    let l = way.pdf.lanes();
-    l.vectorize(
+    way.pdf.lanes().vectorize(
         #[inline(always)]
         || {
-            let (mut sent, along) = (Spectrum::zero(l), *way);
+            let (mut sent, along) = (Spectrum::zero(way.pdf.lanes()), *way);
             let flight = flight::track(
                 context,
                 (way, track),

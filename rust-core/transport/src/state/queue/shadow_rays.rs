@@ -123,6 +123,7 @@ impl ShadowRays {
     }
 
     /// Tells the samples of all rays apart by their slots.
+    #[inline(always)]
     pub(crate) fn set_salts<L: Lanes>(&mut self, l: L, sample: &SampleContext<'_>) {
         for at in (0..self.count).step_by(L::COUNT) {
             sample.salt(l, l.load_integers(&self.slot, at)).store(&mut self.salt, at);
