@@ -4,11 +4,10 @@
 from dataclasses import replace
 
 import numpy as np
-from gonio.graph import Graph
+from gonio.medium import volume_material
 
 from ..gather import fill_random
 from ..instances import values_of
-from ..material.closures import closure
 from ..material.inputs import RANDOM
 from ..slots import Slots
 from ..transforms import columns
@@ -139,7 +138,4 @@ def _origin(name):
 
 def _described(name, medium, pass_index):
     """A material with nothing at its surface and a medium behind it."""
-    graph = Graph()
-    surface = {"weight": graph.scalar(1.0).input(), **closure(graph, "Transparent", base_color=1.0)}
-    inside = {"medium": medium} if medium else {}
-    return {"origin": _origin(name), "graph": {"nodes": []}, "closures": [surface], "pass_index": pass_index, **inside}
+    return {**volume_material(name, medium), "origin": _origin(name), "pass_index": pass_index}

@@ -8,6 +8,7 @@ from gonio.graph import renumber
 
 from ..evaluate import evaluate
 from ..material.inputs import ALPHA, FACTOR, GENERATED, POSITION
+from .lattice import carried
 
 # What depends on the place: in the world, in the object's space, and within the box of the lattice.
 PLACES = {"Position", POSITION, GENERATED}
@@ -90,13 +91,13 @@ class Asked:
 
     def _places(self, points, lattice):
         shares, matrix = lattice.shares(points), self._place.matrix
-        return {"Position": _padded(points @ matrix[:3, :3].T + matrix[:3, 3]), POSITION: _padded(points), GENERATED: _padded(shares)}
+        return {"Position": _padded(carried(matrix, points)), POSITION: _padded(points), GENERATED: _padded(shares)}
 
     def _carried(self, fields, value):
         if fields["from"] == fields["to"]:
             return value
         matrix = self._place.matrix if fields["to"] == "World" else np.linalg.inv(self._place.matrix)
-        return _padded(value[:, :3] @ matrix[:3, :3].T + matrix[:3, 3])
+        return _padded(carried(matrix, value[:, :3]))
 
 
 def grid_of(name):

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .lattice import Dense
+from .lattice import Dense, corners, filling
 
 # Points along the longest edge, as many as Cycles looks at to know how dense such volumes are at most.
 ALONG = 128
@@ -31,6 +31,8 @@ class Bounds:
     """As a volume's grids: none that a shader could ask for, on the points of a box."""
 
     names = {NAMELESS: None}
+    # A mesh has an extent whatever its shader asks for.
+    unasked = frozenset({NAMELESS})
 
     def __init__(self, low, high, centre, size):
         self._lattice = _lattice(low, high, centre - size, 2.0 * size)
@@ -64,10 +66,8 @@ def bounds_of(group):
 
 
 def _of_mesh(mesh):
-    points = np.empty((len(mesh.vertices), 3), dtype=np.float32)
-    mesh.vertices.foreach_get("co", points.reshape(-1))
     centre, size = np.array(mesh.texspace_location, dtype=float), np.array(mesh.texspace_size, dtype=float)
-    return Bounds(points.min(axis=0).astype(float), points.max(axis=0).astype(float), centre, np.where(size == 0.0, 1.0, size))
+    return Bounds(*corners(mesh), centre, np.where(size == 0.0, 1.0, size))
 
 
 def _lattice(low, high, corner, edges):
@@ -75,6 +75,4 @@ def _lattice(low, high, corner, edges):
     longest = float((high - low).max())
     low, high = low - WIDER * longest, high + WIDER * longest
     shape = np.maximum(np.ceil(ALONG * (high - low) / (high - low).max() - 1e-6), 1).astype(int)
-    matrix, steps = np.eye(4), (high - low) / shape
-    matrix[:3, :3], matrix[:3, 3] = np.diag(steps), low + 0.5 * steps
-    return Within(np.broadcast_to(np.float32(1.0), shape), matrix, corner, edges)
+    return Within(np.broadcast_to(np.float32(1.0), shape), filling(low, high, shape), corner, edges)

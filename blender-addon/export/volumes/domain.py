@@ -5,14 +5,16 @@ from hashlib import blake2b
 
 import numpy as np
 
-from .lattice import Dense
+from .lattice import Dense, corners, filling
 
 # Names of grids in shaders, and components of the numbers of Blender's own arrays.
 GRIDS = {"density": 1, "flame": 1, "temperature": 1, "heat": 1, "color": 4, "velocity": 3}
 
 
 class Simulated:
-    """The grids of a domain."""
+    """The grids of a domain; `unasked` are those that count without being asked for."""
+
+    unasked = frozenset()
 
     def __init__(self, grids):
         self.names = grids
@@ -60,11 +62,9 @@ class Simulated:
 
 def grids_of(thing, settings):
     """What a domain's settings hold at the frame, placed in the box of its mesh; None where nothing is simulated yet."""
-    points = np.empty(len(thing.data.vertices) * 3, dtype=np.float32)
-    thing.data.vertices.foreach_get("co", points)
-    if not len(points):
+    box = corners(thing.data)
+    if box is None:
         return None
-    low, high = (function(points.reshape(-1, 3).astype(float), axis=0) for function in (np.min, np.max))
     coarse = tuple(settings.domain_resolution)
     fine = tuple(settings.noise_scale * edge for edge in coarse)
     found = {}
@@ -72,7 +72,7 @@ def grids_of(thing, settings):
         values = _numbers(getattr(settings, f"{name}_grid"))
         shape = next((shape for shape in (coarse, fine) if len(values) and len(values) == np.prod(shape) * components), None)
         if shape is not None:
-            found[name] = Dense(_arranged(values, shape, components), _placed(low, high, shape))
+            found[name] = Dense(_arranged(values, shape, components), filling(*box, shape))
     return Simulated(found) if found else None
 
 
@@ -87,12 +87,3 @@ def _arranged(values, shape, components):
     """Blender counts along x first."""
     values = values.reshape(*shape[::-1], components).transpose(2, 1, 0, 3)
     return values[..., 0] if components == 1 else values[..., :3]
-
-
-def _placed(low, high, shape):
-    """From voxels, whose middles have whole numbers, to the box that they fill."""
-    matrix = np.eye(4)
-    edges = (high - low) / np.array(shape)
-    matrix[:3, :3] = np.diag(edges)
-    matrix[:3, 3] = low + 0.5 * edges
-    return matrix

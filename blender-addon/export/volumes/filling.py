@@ -74,10 +74,10 @@ class Glow:
 
 
 def fill(t, inside, grids, place):
-    """What fills a volume of these grids at a place; None where it asks for none of them, as in Cycles, where such a volume has no extent."""
+    """What fills a volume of these grids at a place; None where it has no extent: as in Cycles, volume objects have that of the grids asked for."""
     dense = Asked(t, grids, place, (inside.absorption, inside.scattering, inside.turned))
     shining = Asked(t, grids, place, (inside.emission,))
-    if not dense.grids and not shining.grids:
+    if not (dense.grids or shining.grids or grids.unasked):
         return None
     told = [("volume asks", ", ".join(sorted(dense.unknown | shining.unknown)))] if dense.unknown or shining.unknown else []
     try:
@@ -88,7 +88,7 @@ def fill(t, inside, grids, place):
 
 def _simple(dense, shining, grids, told):
     """Where both are by one grid each, of the same voxels, and the first by its multiples; None where they are not."""
-    if dense.places or shining.places or len(dense.grids) > 1 or len(shining.grids) > 1:
+    if dense.places or shining.places or len(dense.grids) > 1 or len(shining.grids) > 1 or not (dense.grids or shining.grids):
         return None
     if not all(grids.is_scalar(name) for name in dense.grids | shining.grids):
         return None
@@ -128,7 +128,7 @@ def glow_of(shining, highest):
 
 def _baked(dense, shining, grids, told):
     """Everything else, point by point where these are not too many; else by the plain grid."""
-    lattice = lattice_of(dense.grids | shining.grids, grids)
+    lattice = lattice_of(dense.grids | shining.grids or grids.unasked, grids)
     if lattice is None:
         return _plain(dense, grids, told)
     made = bake(dense, shining, lattice, grids)

@@ -9,6 +9,25 @@ import numpy as np
 AT_ONCE = 1 << 17
 
 
+def carried(matrix, points):
+    """Points (N, 3) by an affine matrix."""
+    return points @ matrix[:3, :3].T + matrix[:3, 3]
+
+
+def filling(low, high, shape):
+    """From the middles of so many boxes, which have whole numbers, to the larger box that they fill."""
+    matrix, edges = np.eye(4), (high - low) / np.array(shape)
+    matrix[:3, :3], matrix[:3, 3] = np.diag(edges), low + 0.5 * edges
+    return matrix
+
+
+def corners(mesh):
+    """The least and the greatest coordinates of a mesh's points; None where it has none."""
+    points = np.empty((len(mesh.vertices), 3), dtype=np.float32)
+    mesh.vertices.foreach_get("co", points.reshape(-1))
+    return (points.min(axis=0).astype(float), points.max(axis=0).astype(float)) if len(points) else None
+
+
 @dataclass(frozen=True, eq=False)
 class Dense:
     """Numbers (nx, ny, nz), or vectors (nx, ny, nz, 3), at whole coordinates, and the matrix from there to the object's space. Beyond its outer
@@ -39,12 +58,11 @@ class Dense:
     def points(self, rows):
         """Places of some points, (N, 3), in the object's space."""
         lattice = np.stack(np.unravel_index(rows, self.shape), axis=1).astype(float)
-        return lattice @ self.to_object[:3, :3].T + self.to_object[:3, 3]
+        return carried(self.to_object, lattice)
 
     def shares(self, points):
         """Where places of the object's space are in the box of all that these fill, 0 to 1."""
-        inner = np.linalg.inv(self.to_object)
-        return (points @ inner[:3, :3].T + inner[:3, 3] + 0.5) / np.array(self.shape)
+        return (carried(np.linalg.inv(self.to_object), points) + 0.5) / np.array(self.shape)
 
     def on(self, other):
         """Its numbers at the points of another lattice, trilinear."""
@@ -55,7 +73,7 @@ class Dense:
         found = np.zeros((other.count, vectors.shape[3]), dtype=np.float32)
         for start in range(0, other.count, AT_ONCE):
             rows = np.arange(start, min(start + AT_ONCE, other.count))
-            found[rows] = _trilinear(vectors, other.points(rows) @ inverse[:3, :3].T + inverse[:3, 3])
+            found[rows] = _trilinear(vectors, carried(inverse, other.points(rows)))
         return Dense(found.reshape(*other.shape, *self.values.shape[3:]), other.to_object)
 
 
