@@ -25,25 +25,25 @@ class GONIO_MATERIAL_PT_surface(MaterialPanel, Panel):
             self.layout.prop(context.material, "diffuse_color")
 
 
-class GONIO_MATERIAL_PT_volume(MaterialPanel, Panel):
-    bl_label = "Volume"
-    bl_options = {"DEFAULT_CLOSED"}
+class NodesPanel(MaterialPanel):
+    """A panel of materials that have nodes."""
 
     @classmethod
     def poll(cls, context):
         return super().poll(context) and context.material.node_tree is not None
+
+
+class GONIO_MATERIAL_PT_volume(NodesPanel, Panel):
+    bl_label = "Volume"
+    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):
         self.layout.use_property_split = True
         draw_shader(self.layout, context.material, "OUTPUT_MATERIAL", "Volume")
 
 
-class GONIO_MATERIAL_PT_displacement(MaterialPanel, Panel):
+class GONIO_MATERIAL_PT_displacement(NodesPanel, Panel):
     bl_label = "Displacement"
-
-    @classmethod
-    def poll(cls, context):
-        return super().poll(context) and context.material.node_tree is not None
 
     def draw(self, context):
         self.layout.use_property_split = True

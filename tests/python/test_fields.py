@@ -148,3 +148,14 @@ def test_the_same_bits_whatever_the_threads():
         scene.set(samples=4, threads=threads)
         pictures.append(np.asarray(finished(scene)["color"]).tobytes())
     assert pictures[0] == pictures[1]
+
+
+def test_light_along_a_lattice_is_not_lost():
+    # A sun over a long box: its rays have no component across the lattice.
+    scene = gonio.Scene()
+    scene.put_meter({"origin": "meter", "position": [1.0, 1.0, -1.0], "normal": [0.0, 0.0, 1.0]})
+    scene.add_light("distant", (1e6,) * 3, angle=0.0)
+    clear = gonio.measure(scene, samples=16).meters[0].value
+    scene.add_volume(np.ones((2, 2, 300), "f4"), scattering=0.0, absorption=0.002)
+    meter = gonio.measure(scene, samples=16384).meters[0]
+    within(meter.value, meter.standard_error, clear * math.exp(-0.6), 0.01)

@@ -1,12 +1,9 @@
 //! Fields: what varies from place to place within a medium, by a lattice of numbers.
 
 use super::{Mesh, Origin, Transform, blob};
-use gonio_volume::{BRICK_VOXELS, Grid, open};
+use gonio_volume::{BRICK_EDGE, BRICK_VOXELS, Grid, open};
 use serde::{Deserialize, Serialize};
 use std::{path::Path, sync::Arc};
-
-/// Points along a brick's edge.
-pub const BRICK: i32 = 8;
 
 /// Numbers at points of whole coordinates, trilinear between them: bricks of 8³ points, evenly filled blocks, and 0 elsewhere.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -68,7 +65,7 @@ impl Lattice {
             let edge = 1 << (tile.log2_edge - 3);
             for n in 0..edge * edge * edge {
                 let step = [n / (edge * edge), n / edge % edge, n % edge];
-                blocks.push([0, 1, 2].map(|axis| tile.origin[axis] + BRICK * step[axis]));
+                blocks.push([0, 1, 2].map(|axis| tile.origin[axis] + BRICK_EDGE * step[axis]));
                 block_values.push(scalar(tile.value));
             }
         }
@@ -92,13 +89,6 @@ impl Lattice {
         let unit = gonio_volume::Transform::uniform(1.0, [0.0; 3]);
         let grid = Grid::from_dense("values", values, shape, unit).map_err(|error| error.to_string())?;
         Self::of_grid(&grid, Some(shape))
-    }
-
-    /// Another of its shape, each value another one; 0 stays 0.
-    #[must_use]
-    pub fn mapped(&self, value: impl Fn(f32) -> f32) -> Self {
-        let mapped = |values: &[f32]| values.iter().map(|x| value(*x)).collect();
-        Self { values: mapped(&self.values), block_values: mapped(&self.block_values), ..self.clone() }
     }
 
     /// Whether both hold the very same arrays, in the same box.

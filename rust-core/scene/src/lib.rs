@@ -49,11 +49,12 @@ pub use dicing::Dicing;
 pub use digest::{Digest, Digesting};
 pub use displacement::{Displacement, DisplacementKind};
 pub use error::{Diagnostic, Error, Result, Severity};
-pub use field::{BRICK, Field, Lattice};
+pub use field::{Field, Lattice};
 pub use gonio_formats::photometry::{Opening, OpeningShape, PhotometricType};
 pub use gonio_nodes::{
     Channel, Graph, Input, LightPathValue, Node, NodeId, Operation, Quantity, Space, TextureFilter, TextureId, WrapMode,
 };
+pub use gonio_volume::{BRICK_EDGE, BRICK_VOXELS};
 pub use goniogram::Goniogram;
 pub use instance::{Geometry, Instances, Visibility};
 pub use light::{DomeFormat, Emission, Falloff, Light, LightShape, Shaping, Spot};
@@ -206,9 +207,14 @@ impl Scene {
     }
     /// Adds a field, its box and what fills that: a volume.
     pub fn add_volume(&mut self, field: Field, medium: Medium) -> &mut Instances {
-        let (origin, to_world) = (field.origin.clone(), field.to_world);
-        let mesh = self.add_mesh(field.mesh());
+        let (mesh, to_world) = (field.mesh(), field.to_world);
         let medium = Medium { field: Some(self.add_field(field)), ..medium };
+        self.add_filled(mesh, medium, to_world)
+    }
+    /// Adds a closed mesh with nothing at its surface and a medium behind it.
+    pub fn add_filled(&mut self, mesh: Mesh, medium: Medium, to_world: Transform) -> &mut Instances {
+        let origin = mesh.origin.clone();
+        let mesh = self.add_mesh(mesh);
         let material = self.add_material(Material::volume(origin.clone(), medium));
         self.instances.push(Instances::new(origin, mesh, vec![material], vec![to_world]));
         self.instances.last_mut().expect("it was added")

@@ -7,7 +7,7 @@ use crate::model::{Element, Inherited};
 use crate::primvar;
 use crate::roles::Role;
 use crate::volume::{self, Filling, Volume};
-use gonio::scene::{Field, Instances, Material, MatteName, Origin, Transform, Visibility};
+use gonio::scene::{Field, MatteName, Origin, Transform, Visibility};
 use std::rc::Rc;
 
 /// A volume that waits for the surfaces to be in the scene.
@@ -34,14 +34,7 @@ impl PlacedVolume {
         for Filling { medium, field, is_even } in filling.iter() {
             let field = Field { origin: origin.clone(), to_world: to_world.after(&field.to_world), ..field.clone() };
             let scene = &mut context.scene;
-            let set = if *is_even {
-                let mesh = scene.add_mesh(field.mesh());
-                let material = scene.add_material(Material::volume(origin.clone(), *medium));
-                scene.instances.push(Instances::new(origin.clone(), mesh, vec![material], vec![field.to_world]));
-                scene.instances.last_mut().expect("it was added")
-            } else {
-                scene.add_volume(field, *medium)
-            };
+            let set = if *is_even { scene.add_filled(field.mesh(), *medium, field.to_world) } else { scene.add_volume(field, *medium) };
             set.visibility = Visibility { camera: role.camera, ..Visibility::default() };
             set.holdout = role.matte;
             set.matte_names.push(matte_name.clone());

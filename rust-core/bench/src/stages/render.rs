@@ -23,8 +23,8 @@ use std::{
 
 /// Pixels a side and samples a pixel: batches are as full and neighbours as alike as in large pictures, what a render begins with is no large part of
 /// it, and a slot is over soon.
-pub(super) const SIDE: u32 = 256;
-pub(super) const SAMPLES: u32 = 2;
+const SIDE: u32 = 256;
+const SAMPLES: u32 = 2;
 
 pub(super) struct Whole {
     name: String,
@@ -45,13 +45,8 @@ struct Total {
 }
 
 pub(super) fn cases(options: &Options, cancel: &AtomicBool) -> Result<Vec<Case>> {
-    let case = |name: &str, scene: &Scene| {
-        let base = Settings { resolution: [SIDE; 2], samples: SAMPLES, threads: options.workers(), ..scene.settings.clone() };
-        let kernel = Whole::new(name, compiled(scene, cancel)?, coloured(base));
-        Ok(Case::new(name, "path", (SIDE * SIDE * SAMPLES) as usize, kernel))
-    };
     if let Some(path) = &options.scene {
-        return Ok(vec![case(&path.file_stem().unwrap_or_default().to_string_lossy(), &load_bundle(path)?)?]);
+        return Ok(vec![case(&path.file_stem().unwrap_or_default().to_string_lossy(), &load_bundle(path)?, options, cancel)?]);
     }
     let scenes = [
         ("car", scenes::car()),
@@ -60,7 +55,14 @@ pub(super) fn cases(options: &Options, cancel: &AtomicBool) -> Result<Vec<Case>>
         ("room all in GGX", scenes::glossy_room()),
         ("room all in a table", scenes::measured_room()),
     ];
-    scenes.iter().map(|(name, scene)| case(name, scene)).collect()
+    scenes.iter().map(|(name, scene)| case(name, scene, options, cancel)).collect()
+}
+
+/// The render of a scene.
+pub(super) fn case(name: &str, scene: &Scene, options: &Options, cancel: &AtomicBool) -> Result<Case> {
+    let base = Settings { resolution: [SIDE; 2], samples: SAMPLES, threads: options.workers(), ..scene.settings.clone() };
+    let kernel = Whole::new(name, compiled(scene, cancel)?, coloured(base));
+    Ok(Case::new(name, "path", (SIDE * SIDE * SAMPLES) as usize, kernel))
 }
 
 /// The whole picture's colour, without a limit of time.

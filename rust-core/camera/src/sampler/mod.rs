@@ -14,7 +14,7 @@ mod sobol;
 pub use batch::{BATCH, CAPACITY, TILE, pixel};
 pub use morton::{morton_even, tile_code, tile_place};
 pub use runs::{RUN, RUNS, Runs, codes, unpack};
-pub use sobol::{Sampler, hash};
+pub use sobol::{Sampler, hash, to_unit};
 
 /// The dimensions a path uses, by name: a pair each, `BOUNCE` times the depth apart.
 pub mod dimension {

@@ -107,7 +107,7 @@ fn nested_scramble<L: Lanes>(l: L, x: U<L>, seed: u32) -> U<L> {
 
 /// The upper 24 bits as a number in [0, 1).
 #[inline(always)]
-fn to_unit<L: Lanes>(x: U<L>) -> F<L> {
+pub fn to_unit<L: Lanes>(x: U<L>) -> F<L> {
     (x >> 8).i32_to_float() * (1.0 / 16_777_216.0)
 }
 

@@ -2,7 +2,7 @@
 
 use crate::{
     error::Diagnostic,
-    scene::{BRICK, Field, Lattice, Scene},
+    scene::{BRICK_EDGE, BRICK_VOXELS, Field, Lattice, Scene},
     transport::{FieldLayout, FieldRow, FieldTable, GLOW, Numbers, POINTS},
 };
 use std::collections::HashMap;
@@ -39,14 +39,14 @@ impl KeptFields {
 pub(super) fn compile(scene: &Scene, before: &KeptFields, diagnostics: &mut Vec<Diagnostic>) -> (FieldTable, Vec<bool>) {
     let alike = alike(&scene.fields);
     let mut filled = 0;
-    let mut usable = |(field, alike): (&Field, &Option<usize>)| match problem(field, alike.is_none().then_some(&mut filled)) {
+    let usable = |(field, alike): (&Field, &Option<usize>)| match problem(field, alike.is_none().then_some(&mut filled)) {
         Some(problem) => {
             diagnostics.push(Diagnostic::warning(&field.origin, format!("{problem}; the volume is left out")));
             false
         }
         None => true,
     };
-    let mut kept: Vec<bool> = scene.fields.iter().zip(&alike).map(&mut usable).collect();
+    let mut kept: Vec<bool> = scene.fields.iter().zip(&alike).map(usable).collect();
     for number in 0..kept.len() {
         kept[number] &= alike[number].is_none_or(|first| kept[first]);
     }
@@ -68,7 +68,7 @@ pub(super) fn compile(scene: &Scene, before: &KeptFields, diagnostics: &mut Vec<
 /// By field, the first one before it that has the same numbers.
 fn alike(fields: &[Field]) -> Vec<Option<usize>> {
     let mut known: HashMap<*const f32, Vec<usize>> = HashMap::new();
-    let mut find = |(number, field): (usize, &Field)| {
+    let find = |(number, field): (usize, &Field)| {
         let same = known.entry(field.density.values.as_ptr()).or_default();
         let first = same.iter().copied().find(|other| fields[*other].holds_arrays_of(field));
         if first.is_none() && field.to_world.inverse().is_some() {
@@ -76,7 +76,7 @@ fn alike(fields: &[Field]) -> Vec<Option<usize>> {
         }
         first
     };
-    fields.iter().enumerate().map(|(number, field)| find((number, field))).collect()
+    fields.iter().enumerate().map(find).collect()
 }
 
 /// Tells where fields lie, in world space rebased to an origin.
@@ -100,7 +100,9 @@ fn problem(field: &Field, filled: Option<&mut usize>) -> Option<String> {
         return Some("it is flat, or lies at no finite place".into());
     }
     let lattices = || [&field.density].into_iter().chain(&field.heat);
-    if lattices().any(|lattice| lattice.values.len() != lattice.bricks.len() * 512 || lattice.blocks.len() != lattice.block_values.len()) {
+    if lattices()
+        .any(|lattice| lattice.values.len() != lattice.bricks.len() * BRICK_VOXELS || lattice.blocks.len() != lattice.block_values.len())
+    {
         return Some("its arrays have other lengths than its bricks".into());
     }
     let bricks = bricks(field).iter().try_fold(1usize, |product, n| product.checked_mul(*n)).unwrap_or(usize::MAX);
@@ -118,13 +120,13 @@ fn problem(field: &Field, filled: Option<&mut usize>) -> Option<String> {
 fn base(field: &Field) -> [i32; 3] {
     let [min, _] = field.domain();
     // Arrays reach half a voxel beyond their points, bricks of grids keep their places.
-    min.map(|x| if field.density.extended.is_some() { x.floor() as i32 } else { (x.floor() as i32).div_euclid(BRICK) * BRICK })
+    min.map(|x| if field.density.extended.is_some() { x.floor() as i32 } else { (x.floor() as i32).div_euclid(BRICK_EDGE) * BRICK_EDGE })
 }
 
 /// Bricks along the axes.
 fn bricks(field: &Field) -> [usize; 3] {
     let ([_, max], base) = (field.domain(), base(field));
-    [0, 1, 2].map(|axis| ((f64::from(max[axis]).floor() as i64 - i64::from(base[axis])) / i64::from(BRICK) + 1).max(1) as usize)
+    [0, 1, 2].map(|axis| ((f64::from(max[axis]).floor() as i64 - i64::from(base[axis])) / i64::from(BRICK_EDGE) + 1).max(1) as usize)
 }
 
 /// A field to be laid out.
@@ -150,12 +152,10 @@ impl<'a> Laid<'a> {
 
 /// Factors on the emission, as many as tables have.
 fn glow(field: &Field) -> [[f32; 3]; GLOW] {
-    let last = field.glow.len().saturating_sub(1);
     let factor = |i: usize| {
         let part = i as f32 / (GLOW - 1) as f32;
-        let Some(at) = field.glow.get(..).filter(|factors| !factors.is_empty()).map(|_| part * last as f32) else {
-            return [part * field.hottest; 3];
-        };
+        let Some(last) = field.glow.len().checked_sub(1) else { return [part * field.hottest; 3] };
+        let at = part * last as f32;
         let (low, high) = (field.glow[at as usize], field.glow[(at as usize + 1).min(last)]);
         [0, 1, 2].map(|c| (high[c] - low[c]).mul_add(at.fract(), low[c])).map(|x| if x.is_finite() { x } else { 0.0 })
     };
@@ -180,7 +180,7 @@ enum Block<'a> {
 
 impl<'a> Places<'a> {
     fn new(lattice: &'a Lattice, base: [i32; 3]) -> Self {
-        let block = |point: &[i32; 3]| point.map(|x| x.div_euclid(BRICK));
+        let block = |point: &[i32; 3]| point.map(|x| x.div_euclid(BRICK_EDGE));
         let bricks = lattice.bricks.iter().map(block).zip(0..).collect();
         let blocks = lattice.blocks.iter().map(block).zip(lattice.block_values.iter().copied()).collect();
         Self { lattice, base, bricks, blocks }
@@ -188,14 +188,14 @@ impl<'a> Places<'a> {
 
     fn block(&self, block: [i32; 3]) -> Block<'a> {
         match self.bricks.get(&block) {
-            Some(brick) => Block::Brick(&self.lattice.values[brick * 512..][..512]),
+            Some(brick) => Block::Brick(&self.lattice.values[brick * BRICK_VOXELS..][..BRICK_VOXELS]),
             None => Block::Even(self.blocks.get(&block).copied().unwrap_or(0.0)),
         }
     }
 
     /// The points of a brick along an axis, held within the array where that goes on beyond its edges.
     fn along(&self, axis: usize, brick: usize) -> [i32; POINTS] {
-        let first = self.base[axis] + brick as i32 * BRICK;
+        let first = self.base[axis] + brick as i32 * BRICK_EDGE;
         std::array::from_fn(|i| {
             let point = first + i as i32;
             self.lattice.extended.map_or(point, |[min, max]| point.clamp(min[axis], max[axis]))
@@ -206,8 +206,8 @@ impl<'a> Places<'a> {
 impl Numbers for Places<'_> {
     fn brick(&self, brick: [usize; 3], points: &mut Points) -> Option<f32> {
         let [x, y, z] = [0, 1, 2].map(|axis| self.along(axis, brick[axis]));
-        let first = [x[0], y[0], z[0]].map(|point| point.div_euclid(BRICK));
-        let last = [x[8], y[8], z[8]].map(|point| point.div_euclid(BRICK));
+        let first = [x[0], y[0], z[0]].map(|point| point.div_euclid(BRICK_EDGE));
+        let last = [x[8], y[8], z[8]].map(|point| point.div_euclid(BRICK_EDGE));
         // Nine points in a row lie in two blocks at most.
         let blocks: [Block<'_>; 8] = std::array::from_fn(|n| self.block([0, 1, 2].map(|axis| [first, last][n >> axis & 1][axis])));
         let even = |block: &Block<'_>| if let Block::Even(value) = block { Some(*value) } else { None };
@@ -216,15 +216,15 @@ impl Numbers for Places<'_> {
         {
             return Some(value);
         }
-        let side = |axis: usize, point: i32| usize::from(point.div_euclid(BRICK) != first[axis]) << axis;
+        let side = |axis: usize, point: i32| usize::from(point.div_euclid(BRICK_EDGE) != first[axis]) << axis;
         let mut at = 0;
         for x in x {
             for y in y {
-                let (sides, row) = (side(0, x) | side(1, y), x.rem_euclid(BRICK) * 64 + y.rem_euclid(BRICK) * 8);
+                let (sides, row) = (side(0, x) | side(1, y), x.rem_euclid(BRICK_EDGE) * 64 + y.rem_euclid(BRICK_EDGE) * 8);
                 for z in z {
                     points[at] = match blocks[sides | side(2, z)] {
                         Block::Even(value) => value,
-                        Block::Brick(values) => values[(row + z.rem_euclid(BRICK)) as usize],
+                        Block::Brick(values) => values[(row + z.rem_euclid(BRICK_EDGE)) as usize],
                     };
                     at += 1;
                 }

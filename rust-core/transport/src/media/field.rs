@@ -99,9 +99,9 @@ impl<L: Lanes> FieldRays<L> {
             |x| x.max(0.0).to_i32(),
         );
         let at = [x, y, z];
-        let block = number(at, LOG2_BRICK + LOG2_COARSE, self.coarse);
+        let block = number(at, LOG2_BRICK + LOG2_COARSE, self.coarse) + self.coarse[2];
         let filled = l.gather(&table.filled, block.keep_if(inside)).gt(0.0) & inside;
-        let fine = number(at, LOG2_BRICK, self.bricks).keep_if(filled);
+        let fine = (number(at, LOG2_BRICK, self.bricks) + self.bricks[2]).keep_if(filled);
         let most = l.gather(&table.bounds, fine * ROW as u32 + 2).keep_if(filled);
         let edge = filled.select(l.u(1 << LOG2_BRICK), l.u(1 << (LOG2_BRICK + LOG2_COARSE)));
         let leaving = leaving(x, edge, [low.x, high.x], [self.origin.x, self.inverse.x])
@@ -143,7 +143,7 @@ impl<L: Lanes> FieldRays<L> {
             #[inline(always)]
             |x| x - x.floor(),
         );
-        let brick = ((x >> LOG2_BRICK) * self.bricks[0] + (y >> LOG2_BRICK)) * self.bricks[1] + (z >> LOG2_BRICK);
+        let brick = number([x, y, z], LOG2_BRICK, self.bricks);
         let row = ((x & 7) * 9 + (y & 7)) * 8 + (z & 7);
         Place { brick, row, part: Vec3::new(u, v, w) }
     }
@@ -190,10 +190,10 @@ fn inverse<L: Lanes>(x: F<L>) -> F<L> {
     x.abs().max(1e-20).copysign(x).recip()
 }
 
-/// The number of the brick that holds a cell, of edges of so many cells as a power of two, by a row of the table.
+/// The number within its lattice of the brick that holds a cell, of edges of so many cells as a power of two, by a row of the table.
 #[inline(always)]
-fn number<L: Lanes>([x, y, z]: [U<L>; 3], log2: u32, [ny, nz, first, _]: [U<L>; 4]) -> U<L> {
-    ((x >> log2) * ny + (y >> log2)) * nz + (z >> log2) + first
+fn number<L: Lanes>([x, y, z]: [U<L>; 3], log2: u32, [ny, nz, ..]: [U<L>; 4]) -> U<L> {
+    ((x >> log2) * ny + (y >> log2)) * nz + (z >> log2)
 }
 
 /// Metres at which rays leave a cube of cells along an axis, cut off at the box's faces.

@@ -6,6 +6,7 @@
 use super::field::{Cell, FieldRays};
 use super::set::MediaSet;
 use crate::tables::media::MediumTable;
+use gonio_camera::sampler::to_unit;
 use gonio_nodes::hash::hash2;
 use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
 
@@ -58,7 +59,7 @@ impl<L: Lanes> Random<L> {
     fn next(&mut self) -> F<L> {
         self.count += 1;
         let l = self.seed.lanes();
-        (hash2(l, self.seed, l.u(self.count)) >> 8).i32_to_float() * (1.0 / 16_777_216.0)
+        to_unit(hash2(l, self.seed, l.u(self.count)))
     }
 }
 
@@ -68,7 +69,7 @@ pub(crate) fn nothing<L: Lanes>(_: F<L>, _: F<L>, _: Spectrum<L>) {}
 
 /// The optical depth of a flight, by a random number.
 #[inline(always)]
-fn depth<L: Lanes>(u: F<L>) -> F<L> {
+pub(crate) fn depth<L: Lanes>(u: F<L>) -> F<L> {
     -(1.0 - u).max(1e-9).ln()
 }
 
@@ -151,12 +152,12 @@ impl<'a, L: Lanes> Track<'a, L> {
         )
     }
 
-    /// Scattering and extinction a metre after so many metres.
+    /// Scattering and extinction a metre where the media have these densities.
     #[inline(always)]
-    pub(crate) fn coefficients(&self, distance: F<L>) -> [Spectrum<L>; 2] {
-        let l = distance.lanes();
+    pub(crate) fn coefficients(&self, densities: [F<L>; 4]) -> [Spectrum<L>; 2] {
+        let l = densities[0].lanes();
         let mut sums = [Spectrum::zero(l); 2];
-        for (part, density) in self.parts.iter().zip(self.densities(distance)) {
+        for (part, density) in self.parts.iter().zip(densities) {
             let Some(part) = part else { continue };
             sums[0] += part.scattering * density;
             sums[1] += part.extinction * density;
@@ -212,7 +213,7 @@ impl<'a, L: Lanes> Track<'a, L> {
             flight = collides.select(depth(random.next()), (flight - majorant * (next - t)).max(0.0));
             t = next;
             if collides.any() {
-                let [scattering, extinction] = self.coefficients(t);
+                let [scattering, extinction] = self.coefficients(self.densities(t));
                 let null = Spectrum::constant(majorant) + extinction * l.f(-1.0);
                 let probability = match scatter {
                     Some((channels, _)) => {

@@ -17,7 +17,7 @@ pub(crate) const WORDS: usize = POINTS * POINTS * 8;
 /// Words of a brick's bounds, and of a field's row.
 pub(crate) const ROW: usize = 4;
 /// The greatest code of a value.
-pub(crate) const CODES: f32 = 65535.0;
+const CODES: f32 = 65535.0;
 /// Factors of a field's glow.
 pub const GLOW: usize = 256;
 

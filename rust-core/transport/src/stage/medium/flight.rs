@@ -6,7 +6,7 @@
 use super::context::MediumContext;
 use super::way::Way;
 use crate::media::phase::PhaseMix;
-use crate::media::track::{Track, seed};
+use crate::media::track::{Track, depth, seed};
 use crate::state::paths::Paths;
 use gonio_accel::{Hits, NONE};
 use gonio_camera::sampler::dimension;
@@ -31,7 +31,7 @@ pub(super) fn draw<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>) -> Fligh
     let u = context.pair(l, way.core.slot, dimension::FLIGHT);
     let channels = way.channels();
     let extinction = channels.choose(u[0], way.extinction);
-    let distance = -(1.0 - u[1]).max(1e-9).ln() / extinction.max(f32::MIN_POSITIVE);
+    let distance = depth(u[1]) / extinction.max(f32::MIN_POSITIVE);
     let scatters = way.scatters_evenly & distance.lt(way.length) & extinction.gt(0.0);
     let left = way.transmittance(distance);
     let density = channels.dot(way.extinction * left);
@@ -66,9 +66,10 @@ pub(super) fn track<L: Lanes>(
     let distance = (found.distance - way.from).max(0.0);
     let left = way.transmittance(distance) * passes(way, distance).max(f32::MIN_POSITIVE).recip();
     let factor = scattered.select(found.weight * left, chosen.select(even.factor * found.weight, even.factor));
-    let phase = PhaseMix::at(l, way.core.media, &context.tables.materials.media, track.densities(found.distance));
+    let densities = track.densities(found.distance);
+    let phase = PhaseMix::at(l, way.core.media, &context.tables.materials.media, densities);
     way.phase = way.phase.or(phase, scattered);
-    let [_, extinction] = track.coefficients(found.distance);
+    let [_, extinction] = track.coefficients(densities);
     way.extinction = scattered.select(extinction, way.extinction);
     Flight {
         scatters: even.scatters | scattered,
