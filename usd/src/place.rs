@@ -10,7 +10,7 @@ use crate::model::{Element, Group, Inherited, Kind, Model, Shape};
 use crate::options::Purpose;
 use crate::roles::Role;
 use crate::view::shines;
-use crate::volume::Filling;
+use crate::volume::{self, Filling, PlacedVolume};
 use crate::{camera, daylight, haze, light, light_filter, material, mesh_light, meter, primvar};
 use gonio::scene::{
     Geometry, GridArea, Instances, Light, MaterialId, MeshId, Origin, Primvar, PrimvarInterpolation, Scene, Transform, Visibility,
@@ -19,7 +19,6 @@ use gonio::{Error, Result, memory::room_for};
 use linking::{Collections, LinkTable};
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
-use volumes::PlacedVolume;
 
 /// Most placed shapes of a stage.
 const MAX_PLACEMENTS: usize = 1 << 25;
@@ -368,7 +367,7 @@ impl<'py> Placer<'_, '_, 'py> {
 
     fn finish(self) {
         let Self { context, failed, gathered, volumes, links, linked_lights, .. } = self;
-        let naming: Vec<Vec<u32>> = gathered.iter().map(|set| set.links.0.clone()).chain(volumes::naming(&volumes)).collect();
+        let naming: Vec<Vec<u32>> = gathered.iter().map(|set| set.links.0.clone()).chain(volume::naming(&volumes)).collect();
         for (light, own) in linked_lights {
             context.scene.lights[light].linking = links.linking(own, &naming);
         }
@@ -379,7 +378,7 @@ impl<'py> Placer<'_, '_, 'py> {
             instances
         });
         context.scene.instances = instances.collect();
-        volumes::add_all(context, volumes);
+        volume::add_all(context, volumes);
         drop_meshes(context, &failed);
     }
 }

@@ -5,10 +5,12 @@
 
 mod fill;
 mod grid;
+mod placed;
 mod read;
 
 pub(crate) use fill::{Filling, fill};
 pub(crate) use grid::GridCache;
+pub(crate) use placed::{PlacedVolume, add_all, naming};
 pub(crate) use read::read;
 
 use crate::vt::AssetPath;

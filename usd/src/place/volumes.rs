@@ -1,51 +1,12 @@
 //! Volumes of the world: each placement is a field of its own, whose numbers they share.
 
 use super::{Placement, Placer};
-use crate::context::Context;
 use crate::material::{self, VolumeShading};
 use crate::model::{Element, Inherited};
 use crate::primvar;
-use crate::roles::Role;
-use crate::volume::{self, Filling, Volume};
-use gonio::scene::{Field, MatteName, Origin, Transform, Visibility};
+use crate::volume::{self, Filling, PlacedVolume, Volume};
+use gonio::scene::Origin;
 use std::rc::Rc;
-
-/// A volume that waits for the surfaces to be in the scene.
-#[derive(Debug)]
-pub(super) struct PlacedVolume {
-    filling: Rc<[Filling]>,
-    to_world: Transform,
-    origin: Origin,
-    role: Role,
-    /// The collections of links that name it.
-    pub(super) naming: Vec<u32>,
-    matte_name: MatteName,
-}
-
-impl PlacedVolume {
-    /// How many sets of instances it makes.
-    pub(super) fn sets(&self) -> usize {
-        self.filling.len()
-    }
-
-    /// Puts it into the scene.
-    fn add(self, context: &mut Context<'_, '_>) {
-        let Self { filling, to_world, origin, role, matte_name, .. } = self;
-        for Filling { medium, field, is_even } in filling.iter() {
-            let field = Field { origin: origin.clone(), to_world: to_world.after(&field.to_world), ..field.clone() };
-            let scene = &mut context.scene;
-            let set = if *is_even { scene.add_filled(field.mesh(), *medium, field.to_world) } else { scene.add_volume(field, *medium) };
-            set.visibility = Visibility { camera: role.camera, ..Visibility::default() };
-            set.holdout = role.matte;
-            set.matte_names.push(matte_name.clone());
-        }
-    }
-}
-
-/// Puts volumes into a scene behind all else, so that the number of files that are there at a time moves nothing else.
-pub(super) fn add_all(context: &mut Context<'_, '_>, volumes: Vec<PlacedVolume>) {
-    volumes.into_iter().for_each(|volume| volume.add(context));
-}
 
 impl Placer<'_, '_, '_> {
     /// Places a volume.
@@ -104,9 +65,4 @@ impl Placer<'_, '_, '_> {
         self.context.once("volume without a material", "", origin, message);
         Rc::new(VolumeShading::usual(path.to_owned(), &field))
     }
-}
-
-/// The collections that the sets of instances of volumes are named by, in the order in which they are added.
-pub(super) fn naming(volumes: &[PlacedVolume]) -> impl Iterator<Item = Vec<u32>> + '_ {
-    volumes.iter().flat_map(|volume| std::iter::repeat_n(volume.naming.clone(), volume.sets()))
 }

@@ -1,7 +1,8 @@
 //! Lookups in fields along rays: densities, heats, and cells whose density has a bound.
 
 use crate::tables::fields::{FieldTable, GLOW, LOG2_BRICK, LOG2_COARSE, ROW, WORDS};
-use gonio_simd::{F, Lanes, M, Rgb, Spectrum, U, Vec3};
+use crate::tables::media::MediumTable;
+use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
 
 /// A register of rays in the coordinates of their fields.
 #[derive(Clone, Copy, Debug)]
@@ -156,24 +157,18 @@ impl<L: Lanes> FieldRays<L> {
 
     /// Factor on the emission after so many metres; 0 outside.
     #[inline(always)]
-    pub(crate) fn glow(&self, l: L, table: &FieldTable, distance: F<L>) -> Spectrum<L> {
+    pub(crate) fn glow(&self, l: L, media: &MediumTable, distance: F<L>) -> Spectrum<L> {
         let inside = Spectrum::constant(l.f(1.0).keep_if(self.holds(self.at(distance))));
         let is_hot = self.bricks[3].ne(0);
         if !is_hot.any() {
             return inside;
         }
-        let heat = value(l, table, &self.place(distance), self.bricks[3]);
+        let heat = value(l, &media.fields, &self.place(distance), self.bricks[3]);
         let last = (GLOW - 1) as f32;
         let at = (heat / self.hottest.max(f32::MIN_POSITIVE) * last).clamp(0.0, last);
         let below = at.floor().min(last - 1.0);
-        let row = (self.coarse[3] * GLOW as u32 + below.to_i32()) * ROW as u32;
-        let [low, high] = [row, row + ROW as u32].map(
-            #[inline(always)]
-            |row| {
-                let [r, g, b, _] = l.gather_quads(&table.glow, row);
-                Spectrum::radiance(Rgb::new(r, g, b))
-            },
-        );
+        let row = self.coarse[3] * GLOW as u32 + below.to_i32();
+        let (low, high) = (media.glow(l, row), media.glow(l, row + 1));
         inside * is_hot.select(low.lerp(high, at - below), Spectrum::one(l))
     }
 }

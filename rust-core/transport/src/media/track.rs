@@ -172,7 +172,7 @@ impl<'a, L: Lanes> Track<'a, L> {
         let mut sum = Spectrum::zero(l);
         for part in self.parts.iter().flatten() {
             if part.emission.is_lit().any() {
-                sum += part.emission * part.rays.glow(l, &self.table.fields, distance);
+                sum += part.emission * part.rays.glow(l, self.table, distance);
             }
         }
         sum

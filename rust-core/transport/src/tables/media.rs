@@ -1,6 +1,6 @@
 //! The media of a scene, a row each: what fills closed meshes, or all of space, evenly or by a field.
 
-use crate::tables::fields::FieldTable;
+use crate::tables::fields::{FieldTable, ROW};
 use gonio_simd::{Column, F, Lanes, PADDING, Rgb, Spectrum, U};
 
 /// A medium (pbrt's `HomogeneousMedium` and `GridMedium`); coefficients a metre, R, G, B.
@@ -100,6 +100,12 @@ impl MediumTable {
     #[inline(always)]
     pub(crate) fn emission<L: Lanes>(&self, l: L, row: U<L>) -> Spectrum<L> {
         Spectrum::radiance(gathered(l, &self.emission, row))
+    }
+    /// Factors on what media by fields send, by their rows among the fields' glows.
+    #[inline(always)]
+    pub(crate) fn glow<L: Lanes>(&self, l: L, row: U<L>) -> Spectrum<L> {
+        let [r, g, b, _] = l.gather_quads(&self.fields.glow, row * ROW as u32);
+        Spectrum::radiance(Rgb::new(r, g, b))
     }
     /// Mean cosines of some rows.
     #[inline(always)]
