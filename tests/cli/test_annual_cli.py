@@ -154,7 +154,7 @@ def test_blocks_tell_standard_errors(run, folder):
     grid = calculated(run, folder, "--coefficients", path)["grids"][0]
     assert grid["standard_errors"]["points"][0]["mean_lx"] == pytest.approx(0.1 * grid["points"][0]["mean_lx"], rel=1e-4)
     text = run("annual-metrics", "--weather", folder / "year.wea", "--coefficients", path).stdout
-    assert "sDA 300/50 %" in text and "±" in text and "not known without --sun-coefficients" in text
+    assert "sDA 300/50 %" in text and "±" in text and "not known without coefficients of the sun" in text
 
 
 BAD = [

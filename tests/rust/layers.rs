@@ -44,7 +44,7 @@ const CRATES: [(&str, &[&str]); 18] = [
     ("mesh", &[]),
     ("road", &["formats"]),
     ("sky", &[]),
-    ("annual", &["formats", "sky"]),
+    ("annual", &["formats", "simd", "sky"]),
     ("accel", &["simd"]),
     ("image", &["simd"]),
     ("table", &["simd"]),
@@ -54,7 +54,7 @@ const CRATES: [(&str, &[&str]); 18] = [
     ("nodes", &["simd"]),
     ("scene", &["formats", "image", "nodes", "volume"]),
     ("transport", &["simd", "accel", "image", "bsdf", "light", "camera", "nodes"]),
-    ("engine", &["simd", "formats", "sky", "mesh", "accel", "image", "table", "camera", "bsdf", "light", "nodes", "scene", "transport"]),
+    ("engine", &["simd", "formats", "sky", "annual", "mesh", "accel", "image", "table", "camera", "bsdf", "light", "nodes", "scene", "transport"]),
 ];
 
 #[test]

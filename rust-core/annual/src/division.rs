@@ -84,6 +84,20 @@ impl Division {
         &self.patches
     }
 
+    /// A place in a patch of the sky for two numbers from 0 to 1, even by solid angle: east, north, up. The ground has none.
+    pub fn place(&self, patch: usize, [u, v]: [f64; 2]) -> Option<[f64; 3]> {
+        let many = self.factor as usize;
+        let height = FRAC_PI_2 / ((ROWS.len() * many) as f64 + 0.5);
+        let found = self.patches.get(patch).filter(|_| patch > 0)?;
+        if patch + 1 == self.patches.len() {
+            let up = 1.0 - u * (1.0 - (0.5 * height).cos());
+            return Some(direction(up.asin(), TAU * v));
+        }
+        let [low, high] = [-0.5, 0.5].map(|side| (found.altitude + side * height).sin());
+        let width = found.solid_angle / (high - low);
+        Some(direction((low + u * (high - low)).asin(), found.azimuth + (v - 0.5) * width))
+    }
+
     /// The patch of the sky that holds a direction; the ground's for one below the horizon.
     pub fn patch_of(&self, towards: [f64; 3]) -> usize {
         let [east, north, up] = towards;

@@ -20,6 +20,9 @@ pub struct Group {
     pub direct: Option<Coefficients>,
     /// Of the sun's light with all its bounces: points × suns. Where it is given, the sun leaves the patches.
     pub sun: Option<Coefficients>,
+    /// Of light that was scattered on its way: points × patches. Where it is given, the sun itself stands at its place, by `direct` of suns, and what it
+    /// lights otherwise is in the patches.
+    pub scattered: Option<Coefficients>,
     /// The blinds, which direct sun closes; `None` where there are none.
     pub blinds: Option<Blinds>,
 }

@@ -1,11 +1,12 @@
-//! Coefficients times columns of the sky: plain loops over panels of points that the compiler turns into vector instructions.
+//! Coefficients times columns of the sky, on lanes: panels of points, a register of which meets a few columns at a time.
 
+use gonio_simd::{Execution, F, Lanes, dispatch};
 use std::thread;
 
 /// Points of a panel.
-const WIDE: usize = 8;
+const WIDE: usize = 16;
 /// Steps that share a pass over a panel.
-const TALL: usize = 4;
+const TALL: usize = 8;
 /// Patches whose products are summed before they join the sum: shorter sums round less.
 const RUN: usize = 64;
 
@@ -45,49 +46,58 @@ impl Panels {
         let mut product = vec![0.0; self.points * steps];
         let panels = self.points.div_ceil(WIDE).div_ceil(threads.max(1)).max(1);
         if steps > 0 {
+            let execution = Execution::detect();
             thread::scope(|scope| {
                 let parts = product.chunks_mut(panels * WIDE * steps).zip(self.values.chunks(panels * self.patches * WIDE));
                 for (product, values) in parts {
                     scope.spawn(move || {
                         let panels = product.chunks_mut(WIDE * steps).zip(values.chunks_exact(self.patches * WIDE));
-                        panels.for_each(|(product, panel)| self.panel_times(panel, columns, steps, product));
+                        for (product, panel) in panels {
+                            dispatch!(execution, l => panel_times(l, self.patches, panel, columns, product));
+                        }
                     });
                 }
             });
         }
         product
     }
+}
 
-    /// One panel's rows of the product.
-    fn panel_times(&self, panel: &[f32], columns: &[f32], steps: usize, product: &mut [f32]) {
-        for (first, columns) in (0..).step_by(TALL).zip(columns.chunks(TALL * self.patches)) {
-            let count = columns.len() / self.patches;
-            // What is left over at the end is summed along with itself.
-            let tall: [&[f32]; TALL] = std::array::from_fn(|step| &columns[step.min(count - 1) * self.patches..][..self.patches]);
-            let sums = tile(panel, tall);
-            for (point, row) in product.chunks_exact_mut(steps).enumerate() {
-                row[first..first + count].iter_mut().zip(&sums).for_each(|(value, sums)| *value = sums[point]);
+/// One panel's rows of the product.
+#[inline(always)]
+fn panel_times<L: Lanes>(l: L, patches: usize, panel: &[f32], columns: &[f32], product: &mut [f32]) {
+    let steps = columns.len() / patches;
+    for (first, columns) in (0..).step_by(TALL).zip(columns.chunks(TALL * patches)) {
+        let count = columns.len() / patches;
+        // What is left over at the end is summed along with itself.
+        let tall: [&[f32]; TALL] = std::array::from_fn(|step| &columns[step.min(count - 1) * patches..][..patches]);
+        for lane in (0..WIDE).step_by(L::COUNT) {
+            let sums = tile(l, panel, lane, tall);
+            for (step, sum) in sums.iter().enumerate().take(count) {
+                let values = sum.to_array();
+                let rows = product.chunks_exact_mut(steps).skip(lane).take(L::COUNT);
+                rows.zip(values).for_each(|(row, value)| row[first + step] = value);
             }
         }
     }
 }
 
-/// Sums of a panel under a few columns.
-fn tile(panel: &[f32], columns: [&[f32]; TALL]) -> [[f32; WIDE]; TALL] {
-    let mut sums = [[0.0; WIDE]; TALL];
-    let mut first = 0;
-    for run in panel.chunks(RUN * WIDE) {
-        let length = run.len() / WIDE;
-        let columns = columns.map(|column| &column[first..first + length]);
-        let mut short = [[0.0_f32; WIDE]; TALL];
-        for (patch, points) in run.chunks_exact(WIDE).enumerate() {
-            for (sums, column) in short.iter_mut().zip(&columns) {
-                let radiance = column[patch];
-                sums.iter_mut().zip(points).for_each(|(sum, coefficient)| *sum += coefficient * radiance);
+/// Sums of a register of a panel's points under a few columns.
+#[inline(always)]
+fn tile<L: Lanes>(l: L, panel: &[f32], lane: usize, columns: [&[f32]; TALL]) -> [F<L>; TALL] {
+    let mut sums = [l.f(0.0); TALL];
+    for first in (0..columns[0].len()).step_by(RUN) {
+        let end = columns[0].len().min(first + RUN);
+        let mut short = [l.f(0.0); TALL];
+        for patch in first..end {
+            let points = l.load(panel, patch * WIDE + lane);
+            for step in 0..TALL {
+                short[step] = points.mul_add(l.f(columns[step][patch]), short[step]);
             }
         }
-        sums.iter_mut().flatten().zip(short.iter().flatten()).for_each(|(sum, short)| *sum += short);
-        first += length;
+        for step in 0..TALL {
+            sums[step] = sums[step] + short[step];
+        }
     }
     sums
 }

@@ -25,6 +25,18 @@ impl Schedule {
         Self { used: year.steps.iter().map(|step| from <= step.hour && step.hour < to).collect() }.checked()
     }
 
+    /// For each step whether the room is used.
+    ///
+    /// # Errors
+    /// Another count than the year's steps, and a room that is never used.
+    pub fn new(year: &Year, used: Vec<bool>) -> Result<Self> {
+        if used.len() != year.steps.len() {
+            let problem = format!("{} numbers were found, expected one for each of the weather's {} steps", used.len(), year.steps.len());
+            return Err(AnnualError::setting("schedule", problem));
+        }
+        Self { used }.checked()
+    }
+
     /// Reads a file's bytes: 0 or 1 for each step, the first number of each line; lines that begin with `#` and empty ones are left out.
     ///
     /// # Errors

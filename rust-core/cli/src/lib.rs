@@ -109,6 +109,7 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
         Command::Falsecolor(options) => py.detach(|| falsecolor::falsecolor(&options)),
         Command::Report(options) => report::report(py, &options, &INTERRUPTED),
         Command::Road(options) => py.detach(|| road::road(&options, &INTERRUPTED)),
+        Command::Annual(options) => annual::trace::annual(py, &options, &INTERRUPTED),
         Command::AnnualMetrics(options) => py.detach(|| annual::annual_metrics(&options, &INTERRUPTED)),
         Command::Glare(options) => py.detach(|| glare::glare(&options)),
         Command::Bench(options) => py.detach(|| bench::bench(&options, &INTERRUPTED)),

@@ -3,6 +3,7 @@
 //! A front end fills a [`scene::Scene`], in metres and physical units; [`compile`] lays it out for computing; [`render`] traces it tile by
 //! tile into a film.
 
+pub mod annual;
 pub mod antialias;
 pub mod bake;
 pub mod checkpoint;

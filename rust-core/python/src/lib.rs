@@ -1,5 +1,6 @@
 //! `_gonio`: what the Python package `gonio` is made of.
 
+mod annual;
 mod array;
 mod artist_sky;
 mod bake;
@@ -42,6 +43,8 @@ use pyo3::prelude::*;
 /// Physically exact rendering on SIMD lanes.
 #[pymodule]
 mod _gonio {
+    #[pymodule_export]
+    use crate::annual::{AnnualReading, annual};
     #[pymodule_export]
     use crate::array::Array;
     #[pymodule_export]

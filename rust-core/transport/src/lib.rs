@@ -28,6 +28,7 @@ pub use accumulate::guiding_notes::GuidingNotes;
 pub use accumulate::light_sums::LightSums;
 pub use accumulate::matte_sums::{MatteSums, Met};
 pub use accumulate::shader_sums::ShaderSums;
+pub use accumulate::sky_arrivals::SkyArrivals;
 pub use accumulate::tile_sums::TileSums;
 pub use schedule::light::{BatchFlux, LIGHT_BATCH, LightTracer, Receiver};
 pub use schedule::tracer::{Start, Tracer};

@@ -27,8 +27,9 @@ pub(super) struct Columns {
 impl Columns {
     pub(super) fn new(skies: &Skies<'_>, groups: &[Group], shape: &Shape, steps: &[usize], threads: usize) -> Self {
         let patches = Division::count(shape.factor);
-        let is_in_patches = groups.iter().any(|group| group.direct.as_ref().is_some_and(|direct| direct.columns == patches));
-        let is_apart = groups.iter().any(|group| group.sun.is_some());
+        let is_direct = |group: &Group| group.direct.as_ref().is_some_and(|direct| direct.columns == patches);
+        let is_in_patches = groups.iter().any(|group| is_direct(group) || group.scattered.is_some());
+        let is_apart = groups.iter().any(|group| group.sun.is_some() || group.scattered.is_some());
         let columns = |of: &SkyMatrix<'_>, is_needed: bool| if is_needed { of.columns(steps, threads) } else { Vec::new() };
         let [all, alone, sky] =
             [(skies.all, true), (skies.alone, is_in_patches), (skies.sky, is_apart)].map(|(of, needed)| columns(of, needed));

@@ -17,6 +17,7 @@ pub(super) struct Prepared {
     open: Panels,
     direct: Option<Direct>,
     sun: Option<Direct>,
+    scattered: Option<Panels>,
     blinds: Option<Closed>,
 }
 
@@ -45,6 +46,7 @@ impl Prepared {
                 }
             }),
             sun: group.sun.as_ref().map(|sun| Direct::Suns(mean(sun, without), sun.columns)),
+            scattered: group.scattered.as_ref().map(panels),
             blinds: group.blinds.as_ref().map(|blinds| match blinds {
                 Blinds::Share(share) => Closed::Share(*share),
                 Blinds::Coefficients(closed) => Closed::Panels(panels(closed)),
@@ -76,11 +78,15 @@ pub(super) fn light(groups: &[Prepared], columns: &Columns, threads: usize) -> (
     let steps = columns.suns.len();
     let (mut total, mut direct): (Vec<f32>, Option<Vec<f32>>) = (Vec::new(), None);
     for group in groups {
-        let mut light = match &group.sun {
-            Some(sun) => sum(group.open.times(&columns.sky, threads), &sun.light(columns, threads)),
-            None => group.open.times(&columns.all, threads),
-        };
         let of_sun = group.direct.as_ref().map(|direct| direct.light(columns, threads));
+        let mut light = match (&group.sun, &group.scattered, &of_sun) {
+            (Some(sun), ..) => sum(group.open.times(&columns.sky, threads), &sun.light(columns, threads)),
+            (None, Some(scattered), Some(of_sun)) => {
+                let of_sky = sum(group.open.times(&columns.sky, threads), &scattered.times(&columns.alone, threads));
+                sum(of_sky, of_sun)
+            }
+            _ => group.open.times(&columns.all, threads),
+        };
         if let (Some(blinds), Some(of_sun)) = (&group.blinds, &of_sun) {
             close(&mut light, blinds, &closed(of_sun, steps), columns, threads);
         }

@@ -32,11 +32,17 @@ pub(super) fn shape(groups: &[Group], year: &Year) -> Result<Shape> {
     let (patches, suns) = ((patches, "patches"), (sunny.len(), "suns, one for each step of the weather with the sun up"));
     for group in groups {
         let closed = if let Some(Blinds::Coefficients(closed)) = &group.blinds { Some(closed) } else { None };
-        for of in [Some(&group.open), closed].into_iter().flatten() {
+        for of in [Some(&group.open), closed, group.scattered.as_ref()].into_iter().flatten() {
             shape.check(of, &[patches])?;
         }
         group.direct.iter().try_for_each(|of| shape.check(of, &[patches, suns]))?;
         group.sun.iter().try_for_each(|of| shape.check(of, &[suns]))?;
+        if group.scattered.is_some() && group.direct.as_ref().is_none_or(|direct| direct.columns == patches.0) {
+            return Err(AnnualError::setting(
+                "scattered",
+                "direct coefficients of suns are missing: they bring the rest of the sun's light",
+            ));
+        }
         if group.blinds.is_some() && group.direct.is_none() {
             return Err(AnnualError::setting("blinds", "direct coefficients are missing: direct sun is what closes blinds"));
         }

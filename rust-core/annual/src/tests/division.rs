@@ -54,3 +54,16 @@ fn rows_begin_in_the_north_and_turn_to_the_east() {
     assert_eq!(division.patch_of([-0.2, 1.0, 0.05]), 30);
     assert_eq!(division.patch_of([0.0, 0.0, -1.0]), 0);
 }
+
+#[test]
+fn places_lie_in_their_patches() {
+    for factor in 1..=3 {
+        let division = Division::new(factor).unwrap();
+        assert!(division.place(0, [0.5; 2]).is_none() && division.place(division.patches().len(), [0.5; 2]).is_none());
+        for patch in 1..division.patches().len() {
+            let steps = [0.01, 0.3, 0.7, 0.99];
+            let places = steps.iter().flat_map(|u| steps.iter().map(|v| division.place(patch, [*u, *v]).unwrap()));
+            places.for_each(|place| assert_eq!(division.patch_of(place), patch));
+        }
+    }
+}

@@ -168,7 +168,7 @@ fn blocks_give_standard_errors() {
     // Two estimates that are 10 % above and below: the mean's standard error is 10 % of it.
     let blocks = vec![level(0.018), level(0.022)];
     let open = Coefficients::new(1, 146, blocks).expect("coefficients");
-    let grid = found(&[Group { open, direct: None, sun: None, blinds: None }], &settings());
+    let grid = found(&[Group { open, direct: None, sun: None, scattered: None, blinds: None }], &settings());
     let errors = grid.standard_errors.as_ref().expect("errors");
     assert!((errors.points[0].mean_lx / grid.points[0].mean_lx - 0.1).abs() < 1e-4);
     assert!((errors.median_daylight_factor / grid.median_daylight_factor - 0.1).abs() < 1e-4);

@@ -1,8 +1,10 @@
 //! The files of `gonio annual-metrics`, and what its options make of them.
 
-use super::told;
-use crate::{arguments::AnnualOptions, file};
-use gonio::{Error, Result, sky::SkyModel};
+use crate::{
+    arguments::{AnnualMetricsOptions, YearArguments},
+    file,
+};
+use gonio::{Error, Result, annual::told, sky::SkyModel};
 use gonio_annual::{
     Blinds, Coefficients, Division, Group, Schedule, Year,
     sky::{Model, SkyOptions},
@@ -30,7 +32,7 @@ pub(super) struct Inputs {
 }
 
 impl Inputs {
-    pub(super) fn read(options: &AnnualOptions) -> Result<Self> {
+    pub(super) fn read(options: &AnnualMetricsOptions) -> Result<Self> {
         for (name, files) in
             [("sun-coefficients", &options.sun_coefficients), ("sun-total", &options.sun_total), ("closed", &options.closed)]
         {
@@ -40,9 +42,7 @@ impl Inputs {
                 return Err(Error::setting(name, problem));
             }
         }
-        let bytes = file::read(&options.weather, LONGEST_WEATHER, "weather file")?;
-        let year = Year::read(&options.weather, &bytes).map_err(told)?;
-        let schedule = schedule(&options.schedule, &year)?;
+        let (year, schedule) = year(&options.year)?;
         let groups = (0..options.coefficients.len()).map(|index| group(options, index)).collect::<Result<Vec<_>>>()?;
         let names = grid_names(options);
         let grids = if options.groups {
@@ -54,8 +54,24 @@ impl Inputs {
     }
 }
 
+/// The weather, and which of its hours are used.
+pub(super) fn year(options: &YearArguments) -> Result<(Year, Schedule)> {
+    let bytes = file::read(&options.weather, LONGEST_WEATHER, "weather file")?;
+    let year = Year::read(&options.weather, &bytes).map_err(told)?;
+    let schedule = schedule(&options.schedule, &year)?;
+    Ok((year, schedule))
+}
+
+/// What blinds leave of the light, where a share was given.
+pub(super) fn share(blinds: Option<f64>) -> Result<Option<f32>> {
+    match blinds {
+        Some(share) if !(0.0..=1.0).contains(&share) => Err(Error::setting("blinds", format!("{share} was found, expected 0 to 1"))),
+        blinds => Ok(blinds.map(|share| share as f32)),
+    }
+}
+
 /// Names of the grids: those of the files without their endings, numbered where they are the same.
-pub(super) fn grid_names(options: &AnnualOptions) -> Vec<String> {
+pub(super) fn grid_names(options: &AnnualMetricsOptions) -> Vec<String> {
     let stem = |path: &PathBuf| path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let stems: Vec<String> = options.coefficients.iter().map(stem).collect();
     let count = if options.groups { 1 } else { stems.len() };
@@ -68,20 +84,18 @@ fn coefficients(path: &Path) -> Result<Coefficients> {
     Coefficients::read(path, &file::read(path, LONGEST_MATRIX, "matrix")?).map_err(told)
 }
 
-fn group(options: &AnnualOptions, index: usize) -> Result<Group> {
+fn group(options: &AnnualMetricsOptions, index: usize) -> Result<Group> {
     let of = |files: &[PathBuf]| files.get(index).map(|path| coefficients(path)).transpose();
     let open = coefficients(&options.coefficients[index])?;
     if let Some(factor) = options.factor.filter(|factor| Division::count(*factor) != open.columns) {
         let problem = format!("{} columns, expected {} of -m {factor}, the ground's among them", open.columns, Division::count(factor));
         return Err(Error::Format { path: open.path, line: None, problem });
     }
-    let blinds = match (of(&options.closed)?, options.blinds) {
-        (Some(closed), _) => Some(Blinds::Coefficients(closed)),
-        (None, Some(share)) if (0.0..=1.0).contains(&share) => Some(Blinds::Share(share as f32)),
-        (None, Some(share)) => return Err(Error::setting("blinds", format!("{share} was found, expected 0 to 1"))),
-        (None, None) => None,
+    let blinds = match of(&options.closed)? {
+        Some(closed) => Some(Blinds::Coefficients(closed)),
+        None => share(options.blinds)?.map(Blinds::Share),
     };
-    Ok(Group { open, direct: of(&options.sun_coefficients)?, sun: of(&options.sun_total)?, blinds })
+    Ok(Group { open, direct: of(&options.sun_coefficients)?, sun: of(&options.sun_total)?, scattered: None, blinds })
 }
 
 /// Hours of every day, such as 8-18, else a file.
@@ -101,7 +115,7 @@ fn schedule(text: &str, year: &Year) -> Result<Schedule> {
 }
 
 /// The sky; its division follows from the coefficients.
-pub(super) fn sky(options: &AnnualOptions) -> Result<SkyOptions> {
+pub(super) fn sky(options: &YearArguments) -> Result<SkyOptions> {
     let model = match SkyModel::parse(&options.sky)? {
         SkyModel::Perez => Model::Perez,
         SkyModel::Cie(kind) => Model::Cie(kind),

@@ -1,45 +1,57 @@
-//! `gonio annual-metrics`.
+//! `gonio annual` and `gonio annual-metrics`: a year of daylight.
 
 mod inputs;
+mod pictures;
 mod series;
 mod text;
+pub(super) mod trace;
 
 use super::{
-    arguments::AnnualOptions,
+    arguments::{AnnualMetricsOptions, YearArguments},
     file::{check_targets, print_path},
     messages::{print, say},
 };
-use gonio::{Error, Result, threads::available_threads};
-use gonio_annual::{AnnualError, Chunk, Grid, Settings, evaluate};
+use gonio::{Error, Result, annual::told, threads::available_threads};
+use gonio_annual::{Chunk, Grid, Settings, Year, evaluate};
 use inputs::{Inputs, Named};
 use serde_json::{Value, json};
 use series::Series;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Reads weather and coefficients, calculates every grid, and writes what was asked for.
-pub(super) fn annual_metrics(options: &AnnualOptions, interrupted: &AtomicBool) -> Result<i32> {
-    let settings = settings(options)?;
-    if let Some(folder) = &options.output {
+pub(super) fn annual_metrics(options: &AnnualMetricsOptions, interrupted: &AtomicBool) -> Result<i32> {
+    let settings = settings(&options.year, options.threads)?;
+    if let Some(folder) = &options.year.output {
         check_targets(inputs::grid_names(options).iter().flat_map(|name| series::paths(folder, name)).collect::<Vec<_>>().iter())?;
     }
     let inputs = Inputs::read(options)?;
-    inputs.year.doubts.iter().for_each(|doubt| say(&format!("warning: {}: {doubt}", options.weather.display())));
+    tell_doubts(&options.year, &inputs.year);
     let mut grids = Vec::new();
     for named in &inputs.grids {
-        let grid = calculate(options, &inputs, named, &settings, interrupted)?;
-        if !options.json {
-            text::lines(&named.name, &grid).iter().for_each(|line| print(line));
+        let grid = calculate(&options.year, &inputs, named, &settings, interrupted)?.0;
+        if !options.year.json {
+            text::lines(&named.name, &grid, &[]).iter().for_each(|line| print(line));
         }
         grids.push(as_json(named, &grid));
     }
-    if options.json {
-        print(&whole(options, &inputs, grids).to_string());
+    if options.year.json {
+        print(&whole(&options.year, &inputs.year, grids).to_string());
     }
     Ok(0)
 }
 
-/// One grid, whose series is written if that is asked for.
-fn calculate(options: &AnnualOptions, inputs: &Inputs, named: &Named, settings: &Settings, interrupted: &AtomicBool) -> Result<Grid> {
+fn tell_doubts(options: &YearArguments, year: &Year) {
+    year.doubts.iter().for_each(|doubt| say(&format!("warning: {}: {doubt}", options.weather.display())));
+}
+
+/// One grid, whose series is written if that is asked for; with the mean of its points by step.
+fn calculate(
+    options: &YearArguments,
+    inputs: &Inputs,
+    named: &Named,
+    settings: &Settings,
+    interrupted: &AtomicBool,
+) -> Result<(Grid, Vec<f32>)> {
     let mut series = options.output.is_some().then(|| Series::new(named.groups[0].open.points, inputs.year.steps.len()));
     let mut take = |chunk: &Chunk<'_>| {
         series.iter_mut().for_each(|series| series.take(chunk));
@@ -47,24 +59,17 @@ fn calculate(options: &AnnualOptions, inputs: &Inputs, named: &Named, settings: 
     };
     let grid = evaluate(&inputs.year, &inputs.schedule, &named.groups, settings, &mut take).map_err(told)?;
     let grid = grid.ok_or(Error::Cancelled)?;
+    let means = series.as_ref().map(Series::means).unwrap_or_default();
     if let (Some(folder), Some(series)) = (&options.output, series) {
         let written = series.write(folder, &named.name, &grid)?;
         written.iter().filter(|_| !options.json).for_each(|path| print_path(path));
     }
-    Ok(grid)
+    Ok((grid, means))
 }
 
-fn settings(options: &AnnualOptions) -> Result<Settings> {
-    let threads = if options.threads == 0 { available_threads() } else { options.threads as usize };
+fn settings(options: &YearArguments, threads: u32) -> Result<Settings> {
+    let threads = if threads == 0 { available_threads() } else { threads as usize };
     Ok(Settings { sky: inputs::sky(options)?, memory: usize::try_from(options.memory).unwrap_or(usize::MAX), threads })
-}
-
-/// A year's error as the command line's.
-fn told(error: AnnualError) -> Error {
-    match error {
-        AnnualError::Content { path, error } => Error::in_file(path, &error),
-        AnnualError::Setting { name, problem } => Error::setting(name, problem),
-    }
 }
 
 fn as_json(named: &Named, grid: &Grid) -> Value {
@@ -75,8 +80,7 @@ fn as_json(named: &Named, grid: &Grid) -> Value {
     value
 }
 
-fn whole(options: &AnnualOptions, inputs: &Inputs, grids: Vec<Value>) -> Value {
-    let year = &inputs.year;
+fn whole(options: &YearArguments, year: &Year, grids: Vec<Value>) -> Value {
     json!({
         "weather": options.weather.to_string_lossy(),
         "place": year.place,

@@ -32,6 +32,15 @@ impl Series {
         }
     }
 
+    /// Means of all points, by step.
+    pub(super) fn means(&self) -> Vec<f32> {
+        let mut sums = vec![0.0_f64; self.steps];
+        for row in self.total.chunks_exact(self.steps) {
+            sums.iter_mut().zip(row).for_each(|(sum, value)| *sum += f64::from(*value));
+        }
+        sums.into_iter().map(|sum| (sum / self.points as f64) as f32).collect()
+    }
+
     /// Writes what there is; gives the files.
     pub(super) fn write(&self, folder: &Path, name: &str, grid: &Grid) -> Result<Vec<PathBuf>> {
         let [total, direct, points] = paths(folder, name);

@@ -1,9 +1,10 @@
 //! A grid's year as lines for a reader.
 
+use crate::arguments::MetricArgument as Metric;
 use gonio_annual::{Grid, Method};
 
-/// The lines of a grid.
-pub(super) fn lines(name: &str, grid: &Grid) -> Vec<String> {
+/// The lines of a grid; of all figures, or of those that were chosen.
+pub(super) fn lines(name: &str, grid: &Grid, chosen: &[Metric]) -> Vec<String> {
     let errors = grid.standard_errors.as_ref();
     let error =
         |value: Option<f64>, factor: f64, digits: usize| value.map_or(String::new(), |value| format!(" ± {:.digits$}", factor * value));
@@ -16,25 +17,25 @@ pub(super) fn lines(name: &str, grid: &Grid) -> Vec<String> {
             method.level
         )
     };
-    vec![
-        format!("{name}: {} points, {:.0} used hours", grid.points.len(), grid.used_hours),
-        format!("  sDA 300/50 %: {} of the points", per_cent(grid.sda_300_50, errors.map(|errors| errors.sda_300_50))),
-        match exposure {
-            Some(exposure) => format!("  ASE 1000/250 h: {exposure} of the points"),
-            None => "  ASE 1000/250 h: not known without --sun-coefficients".into(),
-        },
-        format!("  mean illuminance: {:.0}{} lx", grid.mean_lx, error(errors.map(|errors| errors.mean_lx), 1.0, 0)),
-        format!("  UDI 100-3000 lx: {} of the used hours", per_cent(grid.udi_100_3000, errors.map(|errors| errors.udi_100_3000))),
-        format!(
-            "  median daylight factor: {:.2}{} %",
-            grid.median_daylight_factor,
-            error(errors.map(|errors| errors.median_daylight_factor), 1.0, 2)
+    let exposure = exposure.map_or("not known without coefficients of the sun".into(), |exposure| format!("{exposure} of the points"));
+    let mean = format!("{:.0}{} lx", grid.mean_lx, error(errors.map(|errors| errors.mean_lx), 1.0, 0));
+    let factor = format!("{:.2}{} %", grid.median_daylight_factor, error(errors.map(|errors| errors.median_daylight_factor), 1.0, 2));
+    let autonomy = per_cent(grid.sda_300_50, errors.map(|errors| errors.sda_300_50));
+    let useful = per_cent(grid.udi_100_3000, errors.map(|errors| errors.udi_100_3000));
+    let provision = &grid.en17037;
+    let figures = [
+        (Metric::Sda, format!("sDA 300/50 %: {autonomy} of the points")),
+        (Metric::Ase, format!("ASE 1000/250 h: {exposure}")),
+        (Metric::Mean, format!("mean illuminance: {mean}")),
+        (Metric::Udi, format!("UDI 100-3000 lx: {useful} of the used hours")),
+        (Metric::DaylightFactor, format!("median daylight factor: {factor}")),
+        (Metric::En17037, format!("EN 17037 by hours: {}", area(&provision.hourly))),
+        (
+            Metric::En17037,
+            format!("EN 17037 by daylight factors, {:.0} lx outside: {}", provision.median_diffuse_lx, area(&provision.daylight_factor)),
         ),
-        format!("  EN 17037 by hours: {}", area(&grid.en17037.hourly)),
-        format!(
-            "  EN 17037 by daylight factors, {:.0} lx outside: {}",
-            grid.en17037.median_diffuse_lx,
-            area(&grid.en17037.daylight_factor)
-        ),
-    ]
+    ];
+    let head = format!("{name}: {} points, {:.0} used hours", grid.points.len(), grid.used_hours);
+    let told = figures.into_iter().filter(|(metric, _)| chosen.is_empty() || chosen.contains(metric));
+    std::iter::once(head).chain(told.map(|(_, line)| format!("  {line}"))).collect()
 }

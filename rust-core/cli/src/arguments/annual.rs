@@ -1,11 +1,21 @@
-//! What `gonio annual-metrics` takes.
+//! What `gonio annual` and `gonio annual-metrics` take.
 
 use super::number::{count, finite, mebibytes};
-use clap::Args;
+use super::{GridArguments, StageArguments, TextureArguments, WorkArguments};
+use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
-/// The end of `gonio annual-metrics --help`.
+/// The end of `gonio annual --help`.
 pub(super) const ANNUAL_EXAMPLES: &str = "Examples:
+  gonio annual office.usda --weather mannheim.epw --grid /Office/Floor --height 0.8 --margin 0.5
+  gonio annual office.usda --weather mannheim.epw --grid /Office/Floor --height 0.8 --blinds 0.05 -o out
+  gonio annual office.usda --weather mannheim.epw --grid /Office/Floor --closed-variant '/Office{blinds=closed}' --json
+  gonio annual office.usda --weather oslo.epw --grid /Office/Floor --schedule 7-19 --metrics sda,ase
+
+The stage's lamps are dark and its sky and sun give way to the weather's. docs/annual.md takes you from a weather file to sDA in five minutes.";
+
+/// The end of `gonio annual-metrics --help`.
+pub(super) const ANNUAL_METRICS_EXAMPLES: &str = "Examples:
   gonio annual-metrics --weather mannheim.epw --coefficients office.mtx
   gonio annual-metrics --weather mannheim.epw --coefficients office.mtx --sun-coefficients suns.mtx --json
   gonio annual-metrics --weather mannheim.wea --coefficients office.npy --schedule 9-17 -o out
@@ -14,11 +24,94 @@ pub(super) const ANNUAL_EXAMPLES: &str = "Examples:
 A matrix has a row for each point and a column for each patch of the sky, the ground first, as rfluxmtx and rcontrib write it, or is a NumPy array.
 docs/annual.md tells how such matrices are made and what is calculated of them.";
 
-#[derive(Args, Debug)]
-pub(crate) struct AnnualOptions {
+/// The year, and what of it counts.
+#[derive(Args, Clone, Debug)]
+pub(crate) struct YearArguments {
     /// The year: an EPW or WEA file with every hour of it.
     #[arg(long, value_name = "FILE.epw|FILE.wea")]
     pub(crate) weather: PathBuf,
+    /// Hours of use of every day, on the weather file's clock, or a file of a 0 or 1 for each hour of the year.
+    #[arg(long, value_name = "FROM-TO|FILE", default_value = "8-18")]
+    pub(crate) schedule: String,
+    /// How luminance is spread over the sky: perez (by the weather), or cie1 to cie16 with the weather's light.
+    #[arg(long, value_name = "MODEL", default_value = "perez")]
+    pub(crate) sky: String,
+    /// Albedo of the ground, 0 to 1.
+    #[arg(long, value_name = "ALBEDO", default_value_t = 0.2, value_parser = finite::<f64>)]
+    pub(crate) ground: f64,
+    /// Where true north lies: degrees clockwise of +Y (of -Z where Y is up), seen from above.
+    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_hyphen_values = true, value_parser = finite::<f64>)]
+    pub(crate) north: f64,
+    /// Dew point of the whole year in °C; without it the weather file's, 11 in WEA files, which have none.
+    #[arg(long, value_name = "CELSIUS", allow_hyphen_values = true, value_parser = finite::<f64>)]
+    pub(crate) dew_point: Option<f64>,
+    /// Memory of the hours that are calculated together, beside the matrices: 256M, 1G, or MiB.
+    #[arg(long, value_name = "SIZE", default_value = "256M", value_parser = mebibytes)]
+    pub(crate) memory: u64,
+    /// For machines.
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Write each grid's series to a folder: points × hours in lx as .npy, all light and direct, and a CSV table of the points.
+    #[arg(long, short = 'o', value_name = "FOLDER")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+/// A figure that is written out in lines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum MetricArgument {
+    /// Spatial daylight autonomy, 300 lx in half of the used hours (LM-83).
+    Sda,
+    /// Annual sunlight exposure, 1000 lx of direct sun in more than 250 used hours (LM-83).
+    Ase,
+    /// Mean illuminance of the used hours.
+    Mean,
+    /// Useful daylight illuminance.
+    Udi,
+    /// Median daylight factor.
+    DaylightFactor,
+    /// Daylight provision by both methods of EN 17037.
+    En17037,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct AnnualOptions {
+    #[command(flatten)]
+    pub(crate) stage: StageArguments,
+    #[command(flatten)]
+    pub(crate) year: YearArguments,
+    #[command(flatten)]
+    pub(crate) grids: GridArguments,
+    /// The figures that lines tell, separated by commas; --json and -o have all of them.
+    #[arg(long, value_enum, value_name = "NAMES", value_delimiter = ',')]
+    pub(crate) metrics: Vec<MetricArgument>,
+    /// Share of light that closed blinds let through; they close while more than 2 % of a grid's points have 1000 lx of direct sun (LM-83-12).
+    #[arg(long, value_name = "SHARE", conflicts_with = "closed_variant", value_parser = finite::<f64>)]
+    pub(crate) blinds: Option<f64>,
+    /// The stage's variant with closed blinds, '/Prim{set=variant}', which is traced too; may be given several times.
+    #[arg(long, value_name = "SELECTION")]
+    pub(crate) closed_variant: Vec<String>,
+    /// Reinhart's division of the sky, 1 (Tregenza's 145 patches) to 6. The sun's direct light comes from its place at any.
+    #[arg(long, short = 'm', value_name = "FACTOR", default_value_t = 2, value_parser = count::<u32>(1..=6))]
+    pub(crate) factor: u32,
+    /// Paths a point.
+    #[arg(long, short = 'p', value_name = "COUNT", default_value_t = 8192, value_parser = count::<u32>(1..=1 << 20))]
+    pub(crate) spp: u32,
+    /// Limit of the bounces; without one all count that matter.
+    #[arg(long = "max-bounces", value_name = "COUNT", value_parser = count::<u32>(0..=u64::from(u32::MAX)))]
+    pub(crate) max_bounces: Option<u32>,
+    #[command(flatten)]
+    pub(crate) work: WorkArguments,
+    #[command(flatten)]
+    pub(crate) textures: TextureArguments,
+    /// Write nothing but answers and errors.
+    #[arg(long, short = 'q')]
+    pub(crate) quiet: bool,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct AnnualMetricsOptions {
+    #[command(flatten)]
+    pub(crate) year: YearArguments,
     /// Daylight coefficients, points × patches, a file for each grid: a Radiance matrix (text, float, double) or .npy; blocks × points × patches give standard errors.
     #[arg(long, value_name = "FILE", required = true, num_args = 1..)]
     pub(crate) coefficients: Vec<PathBuf>,
@@ -40,31 +133,7 @@ pub(crate) struct AnnualOptions {
     /// Reinhart's division that the coefficients are to have, 1 (Tregenza's 145 patches) to 6; without it their columns tell.
     #[arg(long, short = 'm', value_name = "FACTOR", value_parser = count::<u32>(1..=6))]
     pub(crate) factor: Option<u32>,
-    /// Hours of use of every day, on the weather file's clock, or a file of a 0 or 1 for each hour of the year.
-    #[arg(long, value_name = "FROM-TO|FILE", default_value = "8-18")]
-    pub(crate) schedule: String,
-    /// How luminance is spread over the sky: perez (by the weather), or cie1 to cie16 with the weather's light.
-    #[arg(long, value_name = "MODEL", default_value = "perez")]
-    pub(crate) sky: String,
-    /// Albedo of the ground, 0 to 1.
-    #[arg(long, value_name = "ALBEDO", default_value_t = 0.2, value_parser = finite::<f64>)]
-    pub(crate) ground: f64,
-    /// Where true north lies: degrees clockwise of +Y, seen from above.
-    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_hyphen_values = true, value_parser = finite::<f64>)]
-    pub(crate) north: f64,
-    /// Dew point of the whole year in °C; without it the weather file's, 11 in WEA files, which have none.
-    #[arg(long, value_name = "CELSIUS", allow_hyphen_values = true, value_parser = finite::<f64>)]
-    pub(crate) dew_point: Option<f64>,
-    /// Memory of the hours that are calculated together, beside the matrices: 256M, 1G, or MiB.
-    #[arg(long, value_name = "SIZE", default_value = "256M", value_parser = mebibytes)]
-    pub(crate) memory: u64,
     /// Worker threads; 0 takes one a core.
     #[arg(long, short = 'j', value_name = "COUNT", default_value_t = 0, value_parser = count::<u32>(0..=1024))]
     pub(crate) threads: u32,
-    /// For machines.
-    #[arg(long)]
-    pub(crate) json: bool,
-    /// Write each grid's series to a folder: points × hours in lx as .npy, all light and direct, and a CSV table of the points.
-    #[arg(long, short = 'o', value_name = "FOLDER")]
-    pub(crate) output: Option<PathBuf>,
 }

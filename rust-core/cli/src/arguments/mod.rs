@@ -26,7 +26,7 @@ mod texture;
 mod view;
 mod work;
 
-pub(super) use annual::AnnualOptions;
+pub(super) use annual::{AnnualMetricsOptions, AnnualOptions, MetricArgument, YearArguments};
 pub(super) use bench::BenchOptions;
 pub(super) use bsdf::{BsdfOptions, SampleArguments};
 pub(super) use checkpoint::{CheckpointArguments, MergeArguments};
@@ -51,7 +51,7 @@ pub(super) use texture::TextureArguments;
 pub(super) use view::{ShowArgument, ViewOptions};
 pub(super) use work::WorkArguments;
 
-use annual::ANNUAL_EXAMPLES;
+use annual::{ANNUAL_EXAMPLES, ANNUAL_METRICS_EXAMPLES};
 use bsdf::BSDF_EXAMPLES;
 use clap::{Parser, Subcommand, ValueEnum};
 use gonio::scene::Integrator;
@@ -161,12 +161,18 @@ pub(super) enum Command {
     /// lighting class.
     #[command(after_long_help = ROAD_EXAMPLES)]
     Road(RoadOptions),
+    /// Calculate a year of daylight on grids of a USD stage: sDA, ASE, daylight autonomy, UDI, EN 17037, with standard errors.
+    ///
+    /// Paths from the points find what each patch of the sky brings; a weather file says how bright each is, hour by hour, and where the sun stands.
+    /// Grids are the stage's own and those over prims that --grid names, as 'gonio measure' has them.
+    #[command(after_long_help = ANNUAL_EXAMPLES)]
+    Annual(Box<AnnualOptions>),
     /// Calculate a year of daylight from coefficients and a weather file: sDA, ASE, daylight autonomy, UDI, EN 17037, with standard errors.
     ///
     /// No light is traced: coefficients say what each patch of the sky brings to each point, the weather file how bright each patch is, hour by
     /// hour, as Radiance's gendaymtx has it.
-    #[command(name = "annual-metrics", after_long_help = ANNUAL_EXAMPLES)]
-    AnnualMetrics(Box<AnnualOptions>),
+    #[command(name = "annual-metrics", after_long_help = ANNUAL_METRICS_EXAMPLES)]
+    AnnualMetrics(Box<AnnualMetricsOptions>),
     /// Rate glare in a picture of luminances, a fisheye or a perspective: UGR and DGP, and the sources that cause it.
     Glare(GlareArguments),
     /// Measure every stage of rendering at every SIMD level against one lane.

@@ -37,6 +37,11 @@ pub(crate) fn has_rough_glass(scene: &CompiledScene) -> bool {
     scene.tables.materials.surfaces.iter().any(|material| rough(&material.surface))
 }
 
+/// Whether anything sends light on sharply that no straight ray comes through: mirrors and solid clear glass.
+pub(crate) fn bends_light(scene: &CompiledScene) -> bool {
+    scene.tables.materials.surfaces.iter().any(|material| material.surface.lobes.smooth && !material.lets_light_pass)
+}
+
 /// How light paths of all lights start.
 pub(crate) fn all_light(scene: &CompiledScene) -> EmissionSampler {
     let (centre, radius) = scene.bounds.sphere(scene.tables.origin);

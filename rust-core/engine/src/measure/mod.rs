@@ -1,6 +1,7 @@
 //! Answers in numbers: meters at points and calculation grids, evaluated by the path tracer without a camera.
 
 mod brought;
+mod coefficients;
 mod csv;
 mod daylight_factor;
 mod disc;
@@ -22,6 +23,7 @@ mod watch;
 #[cfg(test)]
 mod tests;
 
+pub use coefficients::{DaylightCoefficients, ROUNDS, SkyTask, daylight_coefficients};
 pub use csv::csv;
 pub use picture::value_picture;
 pub use points::{GridPoints, MOST_POINTS};

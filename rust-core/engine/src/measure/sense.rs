@@ -113,6 +113,19 @@ pub(super) struct Sensed {
     pub(super) missed: usize,
 }
 
+/// Sensors of probes, which know what they stand in, and places before them.
+pub(super) fn placed(scene: &CompiledScene, probes: &[Probe]) -> (Vec<Sensor>, Vec<[f64; 3]>) {
+    let radius = radius(scene);
+    let mut sensors: Vec<Sensor> = probes.iter().map(|probe| probe.sensor(scene, radius)).collect();
+    let places: Vec<[f64; 3]> = probes.iter().zip(&sensors).map(|(probe, sensor)| probe.before(sensor)).collect();
+    sensors.iter_mut().zip(surroundings_at(&scene.tables, &places)).for_each(|(sensor, found)| sensor.surroundings = found);
+    (sensors, places)
+}
+
+fn radius(scene: &CompiledScene) -> f64 {
+    Some(scene.bounds.radius()).filter(|radius| radius.is_finite()).unwrap_or(0.0)
+}
+
 /// Measures at all probes; `settings.samples` a point, rounded up to what a block of pixels has room for.
 pub(super) fn sense(
     scene: &Arc<CompiledScene>,
@@ -121,10 +134,8 @@ pub(super) fn sense(
     execution: Execution,
     watch: &mut Watch<'_>,
 ) -> Result<Sensed> {
-    let radius = Some(scene.bounds.radius()).filter(|radius| radius.is_finite()).unwrap_or(0.0);
-    let mut sensors: Vec<Sensor> = probes.iter().map(|probe| probe.sensor(scene, radius)).collect();
-    let places: Vec<[f64; 3]> = probes.iter().zip(&sensors).map(|(probe, sensor)| probe.before(sensor)).collect();
-    sensors.iter_mut().zip(surroundings_at(&scene.tables, &places)).for_each(|(sensor, found)| sensor.surroundings = found);
+    let (sensors, places) = placed(scene, probes);
+    let radius = radius(scene);
     let settings = unlimited(settings);
     let sensing = Sensing { scene, sensors: &sensors, settings: &settings, execution };
     // Meters may stand far off the scene: from there its lamps are small.

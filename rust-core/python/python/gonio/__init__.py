@@ -1,6 +1,7 @@
 """Physically exact rendering on SIMD lanes, with answers in cd/m² and lux."""
 
 from ._gonio import (
+    AnnualReading,
     Array,
     Cancelled,
     Coverage,
@@ -29,6 +30,7 @@ from ._gonio import (
     Tile,
     UnsupportedError,
     __version__,
+    annual,
     artist_sky,
     daylight,
     false_colour,
@@ -56,6 +58,7 @@ from .scene import Scene
 from .texture import Texture
 
 __all__ = [
+    "AnnualReading",
     "Array",
     "Cancelled",
     "Coverage",
@@ -86,6 +89,7 @@ __all__ = [
     "Tile",
     "UnsupportedError",
     "__version__",
+    "annual",
     "artist_sky",
     "daylight",
     "denoise",

@@ -23,6 +23,8 @@ __all__ = [
     "SceneError",
     "SettingError",
     "UnsupportedError",
+    "AnnualReading",
+    "annual",
     "Array",
     "Film",
     "Coverage",
@@ -214,6 +216,38 @@ def measure(
     previous: Render | None = None,
     cancelled: Callable[[], bool] | None = None,
 ) -> Measurements: ...
+
+@final
+class AnnualReading:
+    @property
+    def name(self) -> str: ...
+    @property
+    def size(self) -> tuple[int, int]: ...
+    @property
+    def positions(self) -> Array: ...
+    @property
+    def figures(self) -> dict[str, Any]: ...
+    @property
+    def total(self) -> Array: ...
+    @property
+    def direct(self) -> Array: ...
+
+def annual(
+    scene: Scene,
+    weather: bytes,
+    *,
+    samples: int = 8192,
+    division: int = 2,
+    schedule: Sequence[float] | None = None,
+    blinds: float | None = None,
+    closed: Scene | None = None,
+    sky: str = "perez",
+    ground: float = 0.2,
+    dew_point: float | None = None,
+    up: str = "Z",
+    north: float = 0.0,
+    cancelled: Callable[[], bool] | None = None,
+) -> list[AnnualReading]: ...
 
 @final
 class LuminaireReading:

@@ -2,6 +2,7 @@
 
 use crate::accumulate::add::add_rgb;
 use crate::accumulate::guiding_notes::GuidingNotes;
+use crate::accumulate::sky_arrivals::SkyArrivals;
 use crate::accumulate::tile_sums::TileSums;
 use crate::tables::light_groups::{GroupPasses, UNSEEN};
 use crate::tables::transport::{PathFilter, Transport};
@@ -18,6 +19,8 @@ pub struct Deposits {
     pub arrivals: Option<Vec<Arrival>>,
     /// Light that paths found, for the guiding field; `None` where nothing learns.
     pub guiding: Option<GuidingNotes>,
+    /// Light of the sky by direction, for daylight coefficients; `None` where nobody asks for it.
+    pub sky: Option<SkyArrivals>,
 }
 
 /// One register of light that paths found or sampled, clamped; what measured points are sent at once is not.

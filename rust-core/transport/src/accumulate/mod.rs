@@ -17,5 +17,6 @@ pub(crate) mod light_sums;
 pub(crate) mod matte_sums;
 pub(crate) mod shader_passes;
 pub(crate) mod shader_sums;
+pub(crate) mod sky_arrivals;
 pub(crate) mod surface_aovs;
 pub(crate) mod tile_sums;

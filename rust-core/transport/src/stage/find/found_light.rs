@@ -178,6 +178,7 @@ fn add_environment<L: Lanes>(
         let specular = is_specular_path(flags, slot);
         let light = Contribution { slot, value, code, shares: None, specular, source: Source::Several };
         let counted = deposits.deposit(transport, &light, alive & value.is_lit());
+        deposits.note_sky(&light, direction, counted);
         let told_apart = expressions.filter(|expressions| expressions.infinite.is_none());
         if (transport.passes.groups.wanted() || told_apart.is_some()) && counted.any() {
             // A limit holds for all of them together.

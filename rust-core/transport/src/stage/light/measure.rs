@@ -18,7 +18,7 @@ use crate::tables::transport::{FirstLight, Transport};
 use crate::words::{counts, event, flag};
 use gonio_camera::sampler::dimension;
 use gonio_light::{FixedLightSample, LightSample, SampleWeight};
-use gonio_simd::{F, Frame, Lanes, M, Vec3};
+use gonio_simd::{F, Frame, Lanes, M, Spectrum, U, Vec3};
 use std::{
     f32::consts::{FRAC_1_PI, PI},
     ops::Range,
@@ -59,8 +59,35 @@ pub(crate) fn light_by_fixed_samples<L: Lanes>(
             let reached = tables.lights.reaches(l, fixed, &point.at.light_context()) & point.alive;
             if reached.any() {
                 let sample = kernels::sample_fixed(l, tables, fixed, &point.at.light_context());
-                queue_shadow_ray(chunk, &point, &sample, SampleWeight::Fixed(fixed.share), shadows, deposits);
+                queue_shadow_ray(chunk, &point, (&sample, SampleWeight::Fixed(fixed.share)), l.u(0), shadows, deposits);
             }
+        }
+    }
+}
+
+/// Lights some points from given directions, as a radiance of 1 does within a steradian about each. What arrives has the direction's number for its
+/// light pass.
+#[inline(always)]
+pub(crate) fn light_from_directions<L: Lanes>(
+    chunk: &MeasureContext<'_, L>,
+    directions: &[([f32; 3], u32)],
+    shadows: &mut ShadowRays,
+    deposits: &mut Deposits,
+) {
+    let MeasureContext { l, ref range, .. } = *chunk;
+    for place in range.clone().step_by(L::COUNT) {
+        let point = load_point(l, place, l.first(range.end - place), chunk.points);
+        for ([x, y, z], number) in directions {
+            let sample = LightSample {
+                wi: Vec3::new(l.f(*x), l.f(*y), l.f(*z)),
+                distance: l.f(f32::MAX),
+                radiance: Spectrum::one(l),
+                pdf: l.f(1.0),
+                delta: l.m(true),
+                light: l.u(0),
+                casts_shadow: l.m(true),
+            };
+            queue_shadow_ray(chunk, &point, (&sample, SampleWeight::Fixed(1.0)), l.u(*number), shadows, deposits);
         }
     }
 }
@@ -84,7 +111,7 @@ pub(crate) fn light_and_start<L: Lanes>(
             let [u, v] = context.sampler.pair(l, index, base + dimension::LIGHT);
             let light_cache = transport.light_cache.as_deref();
             let sample = kernels::sample_li(l, tables, light_cache, &point.at.light_context(), &[u_light, u, v]);
-            queue_shadow_ray(chunk, &point, &sample, SampleWeight::Mis, shadows, deposits);
+            queue_shadow_ray(chunk, &point, (&sample, SampleWeight::Mis), l.u(0), shadows, deposits);
         }
         if let (Some(photons), true) = (&transport.photons, transport.first_light != FirstLight::Discs) {
             let irradiance = irradiance(l, &photons.fine, point.at.position, point.at.geometric, point.alive, &mut found);
@@ -111,13 +138,13 @@ fn load_point<L: Lanes>(l: L, at: usize, alive: M<L>, points: &MeasurePoints) ->
     }
 }
 
-/// Queues the shadow ray to a light sample.
+/// Queues the shadow ray to a light sample, which counts by a weight for a light pass.
 #[inline(always)]
 fn queue_shadow_ray<L: Lanes>(
     chunk: &MeasureContext<'_, L>,
     point: &MeasuredPoint<L>,
-    sample: &LightSample<L>,
-    weight: SampleWeight,
+    (sample, weight): (&LightSample<L>, SampleWeight),
+    code: U<L>,
     shadows: &mut ShadowRays,
     deposits: &mut Deposits,
 ) {
@@ -132,7 +159,7 @@ fn queue_shadow_ray<L: Lanes>(
     let value = sample.radiance * point.core.throughput * (cosine * weight / sample.pdf);
     let lit = usable & value.is_lit() & value.abs().max_component().is_finite();
     deposits.note_lost(&point.at, point.alive.and_not(lit));
-    let light = Contribution::sampled(sample.light, point.core.slot, value, chunk.l.u(0), None);
+    let light = Contribution::sampled(sample.light, point.core.slot, value, code, None);
     // What is measured is never clamped.
     let along = Along::new(chunk.tables, chunk.transport, point.core.media, chunk.l.u(0), Some(chunk.l.f(f32::MAX)));
     send(chunk.transport, (&point.at, point.at.spawn_ray_to(sample)), (sample, along), &light, lit, shadows, deposits);

@@ -84,7 +84,10 @@ fn add_arrived<L: Lanes>(l: L, transport: &Transport, shadows: &ShadowRays, bloc
         let [light, slot, code] =
             [l.load_integers(&shadows.light, at), l.load_integers(&shadows.slot, at), l.load_integers(&shadows.code, at)];
         let light = Contribution::sampled(light, slot, shadows.contribution.load(l, at), code, shares);
-        deposits.deposit(transport, &light, arrived);
+        let counted = deposits.deposit(transport, &light, arrived);
+        if deposits.sky.is_some() {
+            deposits.note_sky(&light, load3(l, &shadows.rays.direction, at), counted);
+        }
     }
 }
 

@@ -13,6 +13,7 @@ use gonio_camera::Surroundings;
 use gonio_camera::sampler::{Runs, TILE, morton_even};
 use gonio_camera::sampler::{Sampler, dimension};
 use gonio_simd::{Column, Lanes};
+use std::ops::Range;
 
 /// A sensor, rebased world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,6 +98,27 @@ impl SensorTable {
     pub fn block(&self, sensor: usize) -> [usize; 2] {
         let across = 1 << self.across_log2;
         [sensor % across, sensor / across].map(|place| place << self.side_log2)
+    }
+}
+
+/// Queues the points that some sensors measure, each once, in slots of their order.
+#[inline(always)]
+pub(crate) fn queue_sensors<L: Lanes>(l: L, sensors: &SensorTable, chosen: Range<usize>, points: &mut MeasurePoints) {
+    points.count = 0;
+    for first in chosen.clone().step_by(L::COUNT) {
+        let number = l.iota() + first as u32;
+        let inside = number.lt(chosen.end as u32);
+        let sensor = number.keep_if(inside);
+        let normal = gather3(l, &sensors.normal, sensor);
+        let point = MeasureLanes {
+            position: gather3(l, &sensors.position, sensor),
+            error: l.gather(&sensors.error, sensor),
+            geometric_normal: normal,
+            shading_normal: normal,
+            receiver: l.u(0),
+            core: PathCore::of_sensors(l, number - chosen.start as u32, &sensors.surroundings, sensor),
+        };
+        points.append(&point, inside);
     }
 }
 

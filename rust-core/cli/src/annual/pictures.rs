@@ -1,0 +1,81 @@
+//! A grid's year in pictures: figures on the plan, and the mean of the points over days and hours.
+
+use crate::falsecolor;
+use gonio::{
+    Result,
+    annual::AnnualGrid,
+    output::{FalseColour, FalseColourScale},
+};
+use gonio_annual::{Grid, Point, Year};
+use std::path::{Path, PathBuf};
+
+/// Pixels of a day's side and of an hour's in the carpet plot.
+const DAY: usize = 3;
+const HOUR: usize = 14;
+/// Pixels of the longer side of a plan, about.
+const SIDE: usize = 900;
+/// Steps of the scales.
+const STEPS: u32 = 10;
+
+/// A figure that is drawn on the plan.
+struct Drawn {
+    name: &'static str,
+    unit: &'static str,
+    /// The scale's end; without one a round number that nearly all values stay below.
+    max: Option<f32>,
+    of: fn(&Point) -> Option<f64>,
+}
+
+const DRAWN: [Drawn; 3] = [
+    Drawn { name: "da_300", unit: "%", max: Some(100.0), of: |point| Some(100.0 * point.da_300) },
+    Drawn { name: "udi_100_3000", unit: "%", max: Some(100.0), of: |point| Some(100.0 * point.udi_100_3000) },
+    Drawn { name: "hours_direct_1000", unit: "h", max: None, of: |point| point.hours_direct_1000 },
+];
+
+/// The pictures of a grid: plans, and the carpet plot.
+pub(super) fn paths(folder: &Path, name: &str) -> Vec<PathBuf> {
+    let plans = DRAWN.iter().map(|drawn| drawn.name);
+    plans.chain(["year"]).map(|ending| folder.join(format!("{name}_{ending}.png"))).collect()
+}
+
+/// Draws a grid whose points, where there are some, lie in rows; `means` are those of all points by step.
+pub(super) fn draw(folder: &Path, name: &str, (grid, plan): (&Grid, &AnnualGrid), year: &Year, means: &[f32]) -> Result<Vec<PathBuf>> {
+    let paths = paths(folder, name);
+    for (drawn, path) in DRAWN.iter().zip(&paths) {
+        let mut next = grid.points.iter();
+        let value = |is_there: &bool| is_there.then(|| next.next().and_then(drawn.of)).flatten().map_or(f32::NAN, |value| value as f32);
+        let values: Vec<f32> = plan.is_there.iter().map(value).collect();
+        let (pixels, size) = cells(&values, plan.size);
+        falsecolor::write(path, &style(drawn.max, &values, drawn.unit)?.draw(&pixels, size))?;
+    }
+    if let Some(path) = paths.last() {
+        let (pixels, size) = carpet(year, means);
+        falsecolor::write(path, &style(None, means, "lx")?.draw(&pixels, size))?;
+    }
+    Ok(paths)
+}
+
+fn style(max: Option<f32>, values: &[f32], unit: &str) -> Result<FalseColour> {
+    let max = max.unwrap_or_else(|| FalseColourScale::round_max(values));
+    Ok(FalseColour { scale: FalseColourScale::new(max, STEPS, None)?, unit: unit.into(), contours: false, smoothing: 0, legend: true })
+}
+
+/// A square of pixels for each value; the first row lies at the bottom.
+fn cells(values: &[f32], [columns, rows]: [usize; 2]) -> (Vec<f32>, [usize; 2]) {
+    let side = (SIDE / columns.max(rows).max(1)).max(1);
+    let size = [columns * side, rows * side];
+    let value = |pixel: usize| values[(rows - 1 - pixel / size[0] / side) * columns + pixel % size[0] / side];
+    ((0..size[0] * size[1]).map(value).collect(), size)
+}
+
+/// Days from left to right, hours from the bottom up.
+fn carpet(year: &Year, means: &[f32]) -> (Vec<f32>, [usize; 2]) {
+    let of_day = (24.0 / year.step_hours).round() as usize;
+    let days = means.len() / of_day.max(1);
+    let size = [days * DAY, 24 * HOUR];
+    let value = |pixel: usize| {
+        let (day, height) = (pixel % size[0] / DAY, size[1] - 1 - pixel / size[0]);
+        means[day * of_day + height * of_day / size[1]]
+    };
+    ((0..size[0] * size[1]).map(value).collect(), size)
+}

@@ -1,0 +1,134 @@
+//! `gonio annual`: coefficients traced in a stage, and the year that a weather file makes of them.
+
+use super::{
+    as_json, calculate,
+    inputs::{self, Inputs, Named},
+    pictures, series, settings, tell_doubts, text, whole,
+};
+use crate::{
+    arguments::AnnualOptions,
+    file::{check_targets, print_path},
+    measure::author_grids,
+    messages::{list, print},
+    progress::Reporter,
+    render::{MOST_WARNINGS, stage_options},
+};
+use gonio::{
+    Diagnostic, Error, Result,
+    annual::{AnnualGrid, AnnualTask, trace},
+    measure::{MOST_BOUNCES, Watch},
+    render::Progress,
+    scene::Scene,
+    sky::Frame,
+};
+use gonio_annual::{Group, Settings, sky::SkyOptions};
+use gonio_simd::Execution;
+use gonio_usd::{Loaded, SampleTime, Stage, VariantSelection, daylight::up_axis};
+use pyo3::prelude::*;
+use serde_json::{Value, json};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Traces the stage's grids and calculates their year.
+pub(crate) fn annual(py: Python<'_>, options: &AnnualOptions, interrupted: &'static AtomicBool) -> Result<i32> {
+    let (year, schedule) = inputs::year(&options.year)?;
+    tell_doubts(&options.year, &year);
+    let blinds = inputs::share(options.blinds)?;
+    let loaded = load(py, options, &[], interrupted)?;
+    let closed =
+        if options.closed_variant.is_empty() { None } else { Some(load(py, options, &options.closed_variant, interrupted)?.scene) };
+    let frame = Frame { up_axis: up_axis(loaded.info.up_axis), north_deg: options.year.north };
+    py.detach(|| {
+        let tell = |diagnostics: &[Diagnostic]| {
+            if !options.quiet {
+                list(diagnostics, if options.stage.verbose { usize::MAX } else { MOST_WARNINGS });
+            }
+        };
+        tell(&loaded.diagnostics);
+        let (grids, left_out) = AnnualGrid::all(&loaded.scene)?;
+        tell(&left_out);
+        if let Some(folder) = &options.year.output {
+            let files = |grid: &AnnualGrid| series::paths(folder, &grid.name).into_iter().chain(pictures::paths(folder, &grid.name));
+            check_targets(grids.iter().flat_map(files).collect::<Vec<_>>().iter())?;
+        }
+        let task = AnnualTask { year: &year, frame, factor: options.factor, blinds, closed: closed.as_ref() };
+        let (groups, diagnostics) = traced(&loaded.scene, &grids, &task, Reporter::new(options.quiet), interrupted)?;
+        tell(&diagnostics);
+        let named = |(grid, group): (&AnnualGrid, _)| Named { name: grid.name.clone(), groups: vec![group] };
+        let named = grids.iter().zip(groups).map(named).collect();
+        finish(options, &Inputs { year: year.clone(), schedule, grids: named }, &grids, interrupted)
+    })
+}
+
+fn traced(
+    scene: &Scene,
+    grids: &[AnnualGrid],
+    task: &AnnualTask<'_>,
+    mut reporter: Reporter,
+    interrupted: &AtomicBool,
+) -> Result<(Vec<Group>, Vec<Diagnostic>)> {
+    let mut progress = |progress: &Progress| {
+        reporter.show(progress);
+        let heard = Python::attach(|py| py.check_signals()).is_ok();
+        heard && !interrupted.load(Ordering::Relaxed)
+    };
+    let mut watch = Watch { previous: None, cancel: interrupted, progress: &mut progress };
+    let found = trace(scene, grids, task, Execution::detect(), &mut watch);
+    reporter.clear();
+    found
+}
+
+/// The stage with some more variants chosen.
+fn load(py: Python<'_>, options: &AnnualOptions, variants: &[String], interrupted: &'static AtomicBool) -> Result<Loaded> {
+    let mut stage_options = stage_options(&options.stage)?;
+    stage_options.time = SampleTime::Start;
+    for text in variants {
+        let problem = || Error::setting("closed-variant", format!("'{text}' was found, expected /Prim{{set=variant}}"));
+        stage_options.variants.push(VariantSelection::parse(text).ok_or_else(problem)?);
+    }
+    let stage = Stage::open(py, &options.stage.stage, &stage_options)?;
+    author_grids(py, &stage, &options.grids, None)?;
+    let mut loaded = stage.load(py, &stage_options, interrupted)?;
+    if !options.grids.grid.is_empty() {
+        // Who names a grid has not asked for those of the stage besides.
+        loaded.scene.grids.retain(|grid| options.grids.grid.iter().any(|prim| *prim == *grid.origin.name));
+    }
+    let settings = &mut loaded.scene.settings;
+    settings.samples = options.spp;
+    settings.max_bounces = options.max_bounces.unwrap_or(MOST_BOUNCES);
+    options.work.apply(settings);
+    options.textures.apply(settings);
+    Ok(loaded)
+}
+
+/// Calculates every grid, tells and writes.
+fn finish(options: &AnnualOptions, inputs: &Inputs, grids: &[AnnualGrid], interrupted: &AtomicBool) -> Result<i32> {
+    let settings = settings(&options.year, options.work.threads)?;
+    // North is in the coefficients.
+    let settings = Settings { sky: SkyOptions { rotation_deg: 0.0, ..settings.sky }, ..settings };
+    let mut found = Vec::new();
+    for (named, traced) in inputs.grids.iter().zip(grids) {
+        let (grid, means) = calculate(&options.year, inputs, named, &settings, interrupted)?;
+        if let Some(folder) = &options.year.output {
+            let written = pictures::draw(folder, &named.name, (&grid, traced), &inputs.year, &means)?;
+            written.iter().filter(|_| !options.year.json).for_each(|path| print_path(path));
+        }
+        if !options.year.json {
+            text::lines(&named.name, &grid, &options.metrics).iter().for_each(|line| print(line));
+        }
+        found.push(placed(as_json(named, &grid), traced));
+    }
+    if options.year.json {
+        print(&whole(&options.year, &inputs.year, found).to_string());
+    }
+    Ok(0)
+}
+
+/// A grid with the places of its points.
+fn placed(mut grid: Value, traced: &AnnualGrid) -> Value {
+    for (point, position) in grid["points"].as_array_mut().into_iter().flatten().zip(&traced.positions) {
+        point["position_m"] = json!(position);
+    }
+    grid["columns"] = json!(traced.size[0]);
+    grid["rows"] = json!(traced.size[1]);
+    grid
+}

@@ -1,0 +1,130 @@
+//! Paths from the points into the sky, round by round.
+
+use super::{ROUNDS, Tracing, Work};
+use crate::{
+    camera::sampler::{BATCH, Runs, TILE, tile_place},
+    compile::transport,
+    error::Result,
+    transport::{SensorTable, SkyArrivals, Start, Tracer, Workspace},
+};
+use std::sync::{Mutex, PoisonError, atomic::Ordering};
+
+/// Makes seeds of rounds that are far apart.
+const OTHER_SEED: u32 = 0x9e37_79b9;
+/// The row of a slot whose pixel no sensor owns.
+const NOBODY: u32 = u32::MAX;
+
+/// How the points lie in the tiles of a picture, the same in all rounds.
+struct Layout {
+    table: SensorTable,
+    /// Samples of each pixel in a round.
+    samples: u32,
+    tiles: usize,
+}
+
+impl Layout {
+    fn new(tracing: &Tracing<'_>) -> Self {
+        let of_round = tracing.settings.samples.div_ceil(ROUNDS as u32);
+        let table = SensorTable::new(tracing.sensors, of_round as usize);
+        let samples = of_round.div_ceil((table.side() * table.side()) as u32).max(1);
+        let tiles = (table.resolution()[1] as usize).div_ceil(TILE);
+        Self { table, samples, tiles }
+    }
+
+    /// By slot of a tile, the point that it belongs to.
+    fn rows(&self, tile: usize, points: usize) -> Vec<u32> {
+        let (side, across) = (self.table.side(), TILE / self.table.side());
+        let row = |slot: usize| {
+            let [x, y] = tile_place(slot);
+            let point = (tile * TILE + y) / side * across + x / side;
+            if point < points { point as u32 } else { NOBODY }
+        };
+        (0..BATCH).map(row).collect()
+    }
+}
+
+/// Batches in all.
+pub(super) fn batches(tracing: &Tracing<'_>) -> u64 {
+    let layout = Layout::new(tracing);
+    ROUNDS as u64 * layout.tiles as u64 * u64::from(layout.samples)
+}
+
+/// All light and the scattered part of it, by round: points × patches.
+pub(super) fn trace(tracing: &Tracing<'_>, work: &Work) -> Result<[Vec<Vec<f32>>; 2]> {
+    let layout = Layout::new(tracing);
+    let (points, patches) = (tracing.sensors.len(), tracing.task.patches);
+    let empty = || (0..ROUNDS).map(|_| Mutex::new(vec![0.0; points * patches])).collect::<Vec<_>>();
+    let sums = [empty(), empty()];
+    let rows: Vec<Vec<u32>> = (0..layout.tiles).map(|tile| layout.rows(tile, points)).collect();
+    // Rounds and tiles are whole works of one worker each, so that sums do not hang on how many workers there are.
+    work.share_out(tracing, ROUNDS * layout.tiles, |number, workspace| {
+        let (round, tile) = (number / layout.tiles, number % layout.tiles);
+        trace_tile(tracing, work, &layout, (round, tile), &rows[tile], [&sums[0][round], &sums[1][round]], workspace);
+    })?;
+    Ok(sums.map(|sums| sums.into_iter().map(|sum| sum.into_inner().unwrap_or_else(PoisonError::into_inner)).collect()))
+}
+
+/// A round of a tile's points.
+fn trace_tile(
+    tracing: &Tracing<'_>,
+    work: &Work,
+    layout: &Layout,
+    (round, tile): (usize, usize),
+    rows: &[u32],
+    sums: [&Mutex<Vec<f32>>; 2],
+    workspace: &mut Workspace,
+) {
+    let mut transport = transport(tracing.scene, tracing.settings, tracing.execution, [0.0; 3], [0.0; 3]);
+    transport.passes.illuminance = false;
+    transport.seed = tracing.settings.seed ^ (round as u32).wrapping_mul(OTHER_SEED);
+    transport.samples = layout.samples;
+    let tracer = Tracer { tables: &tracing.scene.tables, start: Start::Sensors(&layout.table), transport };
+    workspace.prepare(tracer.tables, &tracer.transport, false);
+    let [width, height] = layout.table.resolution();
+    let top = (tile * TILE) as u32;
+    let (min, max) = ([0, top], [width, height.min(top + TILE as u32)]);
+    let first = rows.iter().copied().min().unwrap_or(0);
+    let last = rows.iter().copied().filter(|row| *row != NOBODY).max().unwrap_or(first);
+    let patches = tracing.task.patches;
+    let mut found = [0, 1].map(|_| vec![0.0_f64; (last - first + 1) as usize * patches]);
+    for sample in 0..layout.samples {
+        let sky = workspace.deposits.sky.get_or_insert_default();
+        sky.count = 0;
+        let before = workspace.statistics.rays + workspace.statistics.shadow_rays;
+        tracer.trace(min, max, &Runs::whole(sample), workspace, &|| work.is_cancelled());
+        if work.is_cancelled() {
+            return;
+        }
+        if let Some(sky) = &workspace.deposits.sky {
+            add(sky, rows, first, tracing, &mut found);
+        }
+        work.done.fetch_add(1, Ordering::Relaxed);
+        work.rays.fetch_add(workspace.statistics.rays + workspace.statistics.shadow_rays - before, Ordering::Relaxed);
+    }
+    let share = 1.0 / ((layout.table.side() * layout.table.side()) as f64 * f64::from(layout.samples));
+    for (sum, found) in sums.into_iter().zip(found) {
+        let mut sum = sum.lock().unwrap_or_else(PoisonError::into_inner);
+        let place = first as usize * patches;
+        sum[place..place + found.len()].iter_mut().zip(found).for_each(|(sum, found)| *sum = (found * share) as f32);
+    }
+}
+
+/// Adds what arrived to the patches that it came from: what was scattered to both sums, and to that of all light what comes straight from patches
+/// without places.
+fn add(sky: &SkyArrivals, rows: &[u32], first: u32, tracing: &Tracing<'_>, [all, scattered]: &mut [Vec<f64>; 2]) {
+    let task = tracing.task;
+    let [x, y, z] = &sky.direction;
+    for entry in 0..sky.count {
+        let Some(row) = (sky.slot[entry] as usize).checked_sub(BATCH).and_then(|slot| rows.get(slot)).filter(|row| **row != NOBODY) else {
+            continue;
+        };
+        let patch = (task.patch_of)([x[entry], y[entry], z[entry]]);
+        let (place, value) = ((row - first) as usize * task.patches + patch, f64::from(sky.value[entry]));
+        if !sky.is_direct(entry) {
+            scattered[place] += value;
+        }
+        if !sky.is_direct(entry) || (task.place)(patch, [0.5; 2]).is_none() {
+            all[place] += value;
+        }
+    }
+}

@@ -1,0 +1,174 @@
+//! A year of daylight on a scene's grids.
+
+use crate::{
+    array::Array,
+    daylight::up_axis,
+    description,
+    error::{exception, setting},
+    scene::Scene,
+    watched::{unless, watched},
+};
+use gonio::{
+    Error,
+    annual::{AnnualGrid, AnnualTask, told, trace},
+    measure::{MOST_BOUNCES, Watch},
+    scene::Scene as Description,
+    sky::{Frame, SkyModel},
+};
+use gonio_annual::{
+    Chunk, Grid, Group, Schedule, Settings, Year, evaluate,
+    sky::{Model, SkyOptions},
+};
+use gonio_simd::Execution;
+use pyo3::prelude::*;
+use std::path::Path;
+
+/// Bytes of the hours that are calculated together.
+const MEMORY: usize = 256 << 20;
+
+/// A year of daylight on one grid.
+#[pyclass(frozen, module = "gonio")]
+pub(crate) struct AnnualReading {
+    place: AnnualGrid,
+    grid: Grid,
+    steps: usize,
+    /// All light and direct light, points × steps.
+    series: [Vec<f32>; 2],
+}
+
+#[pymethods]
+impl AnnualReading {
+    /// The grid's name.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.place.origin.name
+    }
+    /// Points in a row, and rows.
+    #[getter]
+    fn size(&self) -> (usize, usize) {
+        self.place.size.into()
+    }
+    /// Positions of the points, metres: (N, 3).
+    #[getter]
+    fn positions(&self) -> Array {
+        Array::rows(self.place.positions.iter().flatten().copied().collect(), 3)
+    }
+    /// The figures as 'gonio annual --json' has them: sda_300_50, ase_1000_250, mean_lx, udi_100_3000, median_daylight_factor, en17037, points,
+    /// standard_errors.
+    #[getter]
+    fn figures<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        description::to_python(py, &self.grid)
+    }
+    /// Illuminances in lx of sky and sun, with blinds as they are operated: points × steps of the weather file.
+    #[getter]
+    fn total(&self) -> Array {
+        self.array(0)
+    }
+    /// Illuminances in lx straight from the sun, blinds open: points × steps.
+    #[getter]
+    fn direct(&self) -> Array {
+        self.array(1)
+    }
+    fn __repr__(&self) -> String {
+        let Grid { sda_300_50, mean_lx, points, .. } = &self.grid;
+        format!("<gonio.AnnualReading '{}': {} points, sDA {:.1} %, {mean_lx:.0} lx>", self.name(), points.len(), 100.0 * sda_300_50)
+    }
+}
+
+impl AnnualReading {
+    fn array(&self, which: usize) -> Array {
+        Array::rows(self.series[which].iter().copied().map(f64::from).collect(), self.steps)
+    }
+}
+
+/// Calculates a year of daylight on the scene's grids that measure illuminance, `samples` paths a point: one reading a grid. The scene's lamps are dark, its
+/// sky and sun give way to the weather's.
+///
+/// weather: the bytes of an EPW or WEA file of a whole year; division: Reinhart's of the sky, 1 to 6; schedule: hours of use of every day, or 0 or 1
+/// for each step; blinds: share of light that closed blinds let through; closed: the scene with closed blinds, in place of that share; sky: perez, or
+/// cie1 to cie16; ground: albedo; dew_point: °C; up and north: the scene's axis, and degrees clockwise of true north.
+#[pyfunction]
+#[pyo3(signature = (scene, weather, *, samples = 8192, division = 2, schedule = None, blinds = None, closed = None, sky = "perez", ground = 0.2, dew_point = None, up = "Z", north = 0.0, cancelled = None))]
+#[expect(clippy::too_many_arguments, reason = "keyword arguments")]
+pub(crate) fn annual(
+    py: Python<'_>,
+    scene: &Scene,
+    weather: &[u8],
+    samples: u32,
+    division: u32,
+    schedule: Option<&Bound<'_, PyAny>>,
+    blinds: Option<f32>,
+    closed: Option<&Scene>,
+    sky: &str,
+    ground: f64,
+    dew_point: Option<f64>,
+    up: &str,
+    north: f64,
+    cancelled: Option<Py<PyAny>>,
+) -> PyResult<Vec<AnnualReading>> {
+    let year = Year::read(Path::new("weather"), weather).map_err(|error| exception(told(error)))?;
+    let schedule = used_steps(schedule, &year)?;
+    if let Some(share) = blinds.filter(|share| !(0.0..=1.0).contains(share)) {
+        return Err(setting("blinds", format!("{share} was found, expected 0 to 1")));
+    }
+    let sky = SkyOptions { model: model(sky)?, ground, dew_point_c: dew_point, ..SkyOptions::default() };
+    let [open, closed] = [Some(scene), closed].map(|scene| scene.map(|scene| measured(&scene.scene, samples)));
+    let Some(open) = open else { return Ok(Vec::new()) };
+    let task = AnnualTask {
+        year: &year,
+        frame: Frame { up_axis: up_axis(up)?, north_deg: north },
+        factor: division,
+        blinds,
+        closed: closed.as_ref(),
+    };
+    let ask = |py: Python<'_>, _: &gonio::render::Progress| unless(py, cancelled.as_ref());
+    watched(py, ask, |stop, progress| {
+        let (grids, _) = AnnualGrid::all(&open)?;
+        let mut watch = Watch { previous: None, cancel: stop, progress };
+        let (groups, _) = trace(&open, &grids, &task, Execution::detect(), &mut watch)?;
+        let settings = Settings { sky, memory: MEMORY, threads: gonio::threads::available_threads() };
+        grids.into_iter().zip(groups).map(|(place, group)| reading(place, group, (&year, &schedule), &settings)).collect()
+    })
+}
+
+fn measured(scene: &Description, samples: u32) -> Description {
+    let mut scene = scene.clone();
+    (scene.settings.samples, scene.settings.max_bounces) = (samples.max(1), MOST_BOUNCES);
+    scene
+}
+
+/// Hours of use of every day, a pair, or numbers for each step; without any 8 to 18.
+fn used_steps(schedule: Option<&Bound<'_, PyAny>>, year: &Year) -> PyResult<Schedule> {
+    let Some(given) = schedule else { return Schedule::daily(year, 8.0, 18.0).map_err(|error| exception(told(error))) };
+    let numbers: Vec<f64> = given.extract()?;
+    let found = match numbers[..] {
+        [from, to] => Schedule::daily(year, from, to),
+        _ => Schedule::new(year, numbers.iter().map(|number| *number != 0.0).collect()),
+    };
+    found.map_err(|error| exception(told(error)))
+}
+
+fn model(name: &str) -> PyResult<Model> {
+    match SkyModel::parse(name).map_err(exception)? {
+        SkyModel::Perez => Ok(Model::Perez),
+        SkyModel::Cie(kind) => Ok(Model::Cie(kind)),
+        SkyModel::HosekWilkie => Err(setting("sky", "hosek-wilkie knows clear skies alone, expected perez or cie1 to cie16".to_owned())),
+    }
+}
+
+/// A grid's year.
+fn reading(place: AnnualGrid, group: Group, (year, schedule): (&Year, &Schedule), settings: &Settings) -> Result<AnnualReading, Error> {
+    let (points, steps) = (place.positions.len(), year.steps.len());
+    let mut series = [vec![0.0; points * steps], vec![0.0; points * steps]];
+    let mut take = |chunk: &Chunk<'_>| {
+        for (series, values) in series.iter_mut().zip([Some(chunk.total), chunk.direct]) {
+            let rows = values.into_iter().flat_map(|values| values.chunks_exact(chunk.steps.len()));
+            for (row, values) in series.chunks_exact_mut(steps).zip(rows) {
+                chunk.steps.iter().zip(values).for_each(|(step, value)| row[*step] = *value);
+            }
+        }
+        true
+    };
+    let grid = evaluate(year, schedule, &[group], settings, &mut take).map_err(told)?.ok_or(Error::Cancelled)?;
+    Ok(AnnualReading { place, grid, steps, series })
+}
