@@ -54,7 +54,10 @@ const CRATES: [(&str, &[&str]); 18] = [
     ("nodes", &["simd"]),
     ("scene", &["formats", "image", "nodes", "volume"]),
     ("transport", &["simd", "accel", "image", "bsdf", "light", "camera", "nodes"]),
-    ("engine", &["simd", "formats", "sky", "annual", "mesh", "accel", "image", "table", "camera", "bsdf", "light", "nodes", "scene", "transport"]),
+    (
+        "engine",
+        &["simd", "formats", "sky", "annual", "mesh", "accel", "image", "table", "camera", "bsdf", "light", "nodes", "scene", "transport"],
+    ),
 ];
 
 #[test]

@@ -89,14 +89,16 @@ fn tile<L: Lanes>(l: L, panel: &[f32], lane: usize, columns: [&[f32]; TALL]) -> 
     for first in (0..columns[0].len()).step_by(RUN) {
         let end = columns[0].len().min(first + RUN);
         let mut short = [l.f(0.0); TALL];
-        for patch in first..end {
+        let mut patch = first;
+        while patch < end {
             let points = l.load(panel, patch * WIDE + lane);
             for step in 0..TALL {
                 short[step] = points.mul_add(l.f(columns[step][patch]), short[step]);
             }
+            patch += 1;
         }
         for step in 0..TALL {
-            sums[step] = sums[step] + short[step];
+            sums[step] += short[step];
         }
     }
     sums

@@ -4,7 +4,7 @@ use crate::falsecolor;
 use gonio::{
     Result,
     annual::AnnualGrid,
-    output::{FalseColour, FalseColourScale},
+    output::{Canvas, FalseColour, FalseColourScale},
 };
 use gonio_annual::{Grid, Point, Year};
 use std::path::{Path, PathBuf};
@@ -14,8 +14,14 @@ const DAY: usize = 3;
 const HOUR: usize = 14;
 /// Pixels of the longer side of a plan, about.
 const SIDE: usize = 900;
-/// Steps of the scales.
+/// Steps of the scales, and decades of that of the year.
 const STEPS: u32 = 10;
+const DECADES: f32 = 2.0;
+/// Pixels at the left and below for hours and months, and of their letters.
+const MARGIN: [usize; 2] = [32, 28];
+const LETTERS: usize = 15;
+const PAPER: [u8; 4] = [24, 24, 24, 255];
+const INK: [u8; 4] = [235, 235, 235, 255];
 
 /// A figure that is drawn on the plan.
 struct Drawn {
@@ -49,8 +55,7 @@ pub(super) fn draw(folder: &Path, name: &str, (grid, plan): (&Grid, &AnnualGrid)
         falsecolor::write(path, &style(drawn.max, &values, drawn.unit)?.draw(&pixels, size))?;
     }
     if let Some(path) = paths.last() {
-        let (pixels, size) = carpet(year, means);
-        falsecolor::write(path, &style(None, means, "lx")?.draw(&pixels, size))?;
+        falsecolor::write(path, &carpet(year, means)?)?;
     }
     Ok(paths)
 }
@@ -68,14 +73,34 @@ fn cells(values: &[f32], [columns, rows]: [usize; 2]) -> (Vec<f32>, [usize; 2]) 
     ((0..size[0] * size[1]).map(value).collect(), size)
 }
 
-/// Days from left to right, hours from the bottom up.
-fn carpet(year: &Year, means: &[f32]) -> (Vec<f32>, [usize; 2]) {
+/// Days from left to right, hours from the bottom up, with months and hours beside them.
+fn carpet(year: &Year, means: &[f32]) -> Result<Canvas> {
     let of_day = (24.0 / year.step_hours).round() as usize;
     let days = means.len() / of_day.max(1);
-    let size = [days * DAY, 24 * HOUR];
+    let inner = [days * DAY, 24 * HOUR];
+    let size = [inner[0] + MARGIN[0], inner[1] + MARGIN[1]];
     let value = |pixel: usize| {
-        let (day, height) = (pixel % size[0] / DAY, size[1] - 1 - pixel / size[0]);
-        means[day * of_day + height * of_day / size[1]]
+        let (x, y) = (pixel % size[0], pixel / size[0]);
+        if x < MARGIN[0] || y >= inner[1] {
+            return f32::NAN;
+        }
+        means[(x - MARGIN[0]) / DAY * of_day + (inner[1] - 1 - y) * of_day / inner[1]]
     };
-    ((0..size[0] * size[1]).map(value).collect(), size)
+    let pixels: Vec<f32> = (0..size[0] * size[1]).map(value).collect();
+    let scale = FalseColourScale::new(FalseColourScale::round_max(means), STEPS, Some(DECADES))?;
+    let style = FalseColour { scale, unit: "lx".into(), contours: false, smoothing: 0, legend: true };
+    let mut canvas = style.draw(&pixels, size);
+    canvas.shade([0, 0], [MARGIN[0], size[1]], PAPER);
+    canvas.shade([0, inner[1]], [size[0], MARGIN[1]], PAPER);
+    for hour in [0, 6, 12, 18, 24] {
+        let text = hour.to_string();
+        let [width, height] = Canvas::text_size(&text, LETTERS);
+        let middle = (inner[1] - hour * HOUR).clamp(height / 2, inner[1] - height / 2);
+        canvas.write(&text, [MARGIN[0] - 6 - width, middle - height / 2], LETTERS, INK);
+    }
+    let starts = (0..days).filter(|day| year.steps[day * of_day].day == 1);
+    for (day, name) in starts.zip(["Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"]) {
+        canvas.write(name, [MARGIN[0] + day * DAY + 4, inner[1] + 6], LETTERS, INK);
+    }
+    Ok(canvas)
 }
