@@ -21,6 +21,8 @@ class Readings:
 
     # By the object's name.
     grids: dict = field(default_factory=dict)
+    # By the object's name, lines of a year's figures.
+    years: dict = field(default_factory=dict)
     # Lines of figures as the N-panel shows them.
     point: tuple = ()
     luminaire: tuple = ()
@@ -28,7 +30,7 @@ class Readings:
 
     def clear(self) -> None:
         """Forgets everything."""
-        self.grids, self.point, self.luminaire, self.maps = {}, (), (), ()
+        self.grids, self.years, self.point, self.luminaire, self.maps = {}, {}, (), (), ()
 
 
 latest = Readings()
@@ -146,6 +148,25 @@ def grid_lines(reading) -> tuple[str, ...]:
     columns, rows = reading.size
     lines += [f"U0: {reading.uniformity:.3f}   Ud: {reading.diversity:.3f}", f"{columns} × {rows} points", *_tabular(reading), *_left_out(reading.coverage)]
     return tuple(lines)
+
+
+def year_lines(reading) -> tuple[str, ...]:
+    """The figures of a grid's year."""
+    figures = reading.figures
+    errors = figures["standard_errors"] or {}
+
+    def share(name, label):
+        value, error = figures[name], errors.get(name)
+        return f"{label}: {100 * value:.1f} %" + (f" ± {100 * error:.1f}" if error is not None else "")
+
+    mean, factor = figures["mean_lx"], figures["median_daylight_factor"]
+    return (
+        share("sda_300_50", "sDA 300/50 %"),
+        share("ase_1000_250", "ASE 1000/250 h"),
+        share("udi_100_3000", "UDI 100–3000 lx"),
+        f"Mean: {mean:.4g} lx   Daylight factor: {factor:.2f} %",
+        f"EN 17037: {figures['en17037']['hourly']['level']}",
+    )
 
 
 def _tabular(reading) -> list[str]:

@@ -6,6 +6,7 @@ import bpy
 from .. import measuring
 from ..baking import wanted
 from . import presets
+from .annual_daylight import GONIO_OT_annual_daylight
 from .bake_illuminance import GONIO_OT_bake_illuminance
 from .expose_for_daylight import GONIO_OT_expose_for_daylight
 from .from_cycles import GONIO_OT_settings_from_cycles
@@ -20,6 +21,7 @@ CLASSES = (
     *presets.CLASSES,
     GONIO_OT_settings_from_cycles,
     GONIO_OT_use_standard_view,
+    GONIO_OT_annual_daylight,
     GONIO_OT_bake_illuminance,
     GONIO_OT_expose_for_daylight,
     GONIO_OT_illumination_map,

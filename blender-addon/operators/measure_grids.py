@@ -25,12 +25,12 @@ class GONIO_OT_measure_grids(Beside, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        has_grids = context.scene is not None and any(True for _ in _grids(context))
+        has_grids = context.scene is not None and any(True for _ in grids_of(context))
         return can_run(cls, is_engine(context), (has_grids, "No object of the scene is a grid: Object Properties, Measuring Grid"))
 
     def execute(self, context):
         try:
-            meter = _meter(context)
+            meter = meter_of(context)
             return self._publish(context, meter, meter.grids(self.samples))
         except FAILURES as error:
             return self._fail(error)
@@ -38,7 +38,7 @@ class GONIO_OT_measure_grids(Beside, bpy.types.Operator):
     def invoke(self, context, event):
         """Measures beside Blender, until ESC; scripts that call `execute` wait."""
         try:
-            self._meter = _meter(context)
+            self._meter = meter_of(context)
         except FAILURES as error:
             return self._fail(error)
         context.workspace.status_text_set("Gonio measures the grids    ESC: Cancel")
@@ -55,7 +55,7 @@ class GONIO_OT_measure_grids(Beside, bpy.types.Operator):
         measuring.latest.grids = {reading.name: reading for reading in found.grids}
         _write_text("Gonio grids.csv", found.csv())
         for name, reading in measuring.latest.grids.items():
-            _write_image(f"{name} ({reading.unit or reading.quantity})", reading.picture(max=context.scene.gonio.false_color_max or None))
+            write_image(f"{name} ({reading.unit or reading.quantity})", reading.picture(max=context.scene.gonio.false_color_max or None))
         count = len(found.grids)
         self.report({"INFO"}, f"{count} grid{'s' * (count > 1)} measured; values are in the text 'Gonio grids.csv'")
         return {"FINISHED"}
@@ -65,15 +65,16 @@ class GONIO_OT_measure_grids(Beside, bpy.types.Operator):
         return {"CANCELLED"}
 
 
-def _meter(context):
+def meter_of(context):
     """A meter of the scene with its grids."""
     depsgraph = context.evaluated_depsgraph_get()
     meter = measuring.Meter(depsgraph)
-    meter.put_grids(depsgraph, list(_grids(context)))
+    meter.put_grids(depsgraph, list(grids_of(context)))
     return meter
 
 
-def _grids(context):
+def grids_of(context):
+    """Objects of the view layer that are grids."""
     for thing in context.view_layer.objects:
         if thing.gonio.is_grid and thing.type == "MESH":
             yield thing
@@ -85,7 +86,8 @@ def _write_text(name, content) -> None:
     text.write(content.replace("\r\n", "\n"))
 
 
-def _write_image(name, picture) -> None:
+def write_image(name, picture) -> None:
+    """Makes a picture an image of the file, or its pixels those of the image of that name."""
     width, height = picture.size
     image = bpy.data.images.get(name)
     if image is None:

@@ -25,6 +25,10 @@ class GONIO_VIEW3D_PT_measure(Panel):
         for name, reading in measuring.latest.grids.items():
             layout.label(text=name, icon="OBJECT_DATA")
             _lines(layout, measuring.grid_lines(reading))
+        layout.operator("gonio.annual_daylight", icon="LIGHT_SUN")
+        for name, lines in measuring.latest.years.items():
+            layout.label(text=name, icon="OBJECT_DATA")
+            _lines(layout, lines)
         layout.operator("gonio.measure_luminaire", icon="OUTLINER_OB_LIGHT")
         _lines(layout, measuring.latest.luminaire)
         layout.operator("gonio.illumination_map", icon="TEXTURE")

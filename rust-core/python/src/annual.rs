@@ -16,7 +16,7 @@ use gonio::{
     sky::{Frame, SkyModel},
 };
 use gonio_annual::{
-    Chunk, Grid, Group, Schedule, Settings, Year, evaluate,
+    Chunk, Grid, Group, Point, Schedule, Settings, Year, evaluate,
     sky::{Model, SkyOptions},
 };
 use gonio_simd::Execution;
@@ -58,6 +58,29 @@ impl AnnualReading {
     #[getter]
     fn figures<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         description::to_python(py, &self.grid)
+    }
+    /// A figure of all points by its name, such as da_300, udi_100_3000, mean_lx or hours_direct_1000: the grid's rows and columns, nan where there
+    /// is no point and where it is not known.
+    fn plan(&self, figure: &str) -> PyResult<Array> {
+        let of: fn(&Point) -> f64 = match figure {
+            "mean_lx" => |point| point.mean_lx,
+            "da_300" => |point| point.da_300,
+            "cda_300" => |point| point.cda_300,
+            "udi_below_100" => |point| point.udi_below_100,
+            "udi_100_300" => |point| point.udi_100_300,
+            "udi_300_3000" => |point| point.udi_300_3000,
+            "udi_above_3000" => |point| point.udi_above_3000,
+            "udi_100_3000" => |point| point.udi_100_3000,
+            "hours_direct_1000" => |point| point.hours_direct_1000.unwrap_or(f64::NAN),
+            "daylight_factor" => |point| point.daylight_factor,
+            _ => {
+                let problem = format!("'{figure}' was found, expected a number of the figures' points, such as da_300");
+                return Err(setting("figure", problem));
+            }
+        };
+        let mut points = self.grid.points.iter().map(of);
+        let value = |is_there: &bool| if *is_there { points.next().unwrap_or(f64::NAN) } else { f64::NAN };
+        Ok(Array::rows(self.place.is_there.iter().map(value).collect(), self.place.size[0]))
     }
     /// Illuminances in lx of sky and sun, with blinds as they are operated: points × steps of the weather file.
     #[getter]

@@ -44,6 +44,35 @@ def test_grids_become_texts_and_images():
 
 
 @pytest.mark.blender
+def test_a_year_of_daylight_on_grids(tmp_path: Path):
+    import importlib
+
+    import bpy
+    import numpy
+    import scenes
+
+    scenes.lit_floor()
+    months = (31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31)
+    head = "place Here\nlatitude 49.52\nlongitude -8.55\ntime_zone -15\nsite_elevation 96\nweather_data_file_units 3\n"
+    rows = [f"{month} {day} {hour}.500 0 {10000 if 6 < hour < 18 else 0}\n" for month, days in enumerate(months, 1) for day in range(1, days + 1) for hour in range(24)]
+    weather = tmp_path / "year.wea"
+    weather.write_text(head + "".join(rows))
+    floor = bpy.data.objects["Floor"]
+    floor.gonio.is_grid, floor.gonio.grid_spacing, floor.gonio.grid_margin, floor.gonio.grid_height = True, 4.0, 2.0, 0.25
+    assert bpy.ops.gonio.annual_daylight(filepath=str(weather), samples=64) == {"FINISHED"}
+    lines = importlib.import_module("gonio_extension.measuring").latest.years["Floor"]
+    # Nothing stands in the light of an overcast year.
+    assert lines[0].startswith("sDA 300/50 %: 100.0 %") and lines[1].startswith("ASE 1000/250 h: 0.0 %"), lines
+    assert "Daylight factor: 100" in lines[3] or "Daylight factor: 99" in lines[3], lines
+    picture = bpy.data.images["Floor (da_300)"]
+    assert picture.size[0] > picture.size[1] > 100
+    pixels = numpy.array(picture.pixels).reshape(picture.size[1], picture.size[0], 4)
+    assert numpy.allclose(pixels[10, 10], pixels[-10, 400])
+    with pytest.raises(RuntimeError, match=r"no\.epw"):
+        bpy.ops.gonio.annual_daylight(filepath=str(tmp_path / "no.epw"))
+
+
+@pytest.mark.blender
 def test_grids_are_measured_beside_blender_until_escape():
     import importlib
     import time
