@@ -24,8 +24,8 @@ pub enum Phase {
         /// Weight of the squared cosine, 0 or more.
         alpha: f32,
     },
-    /// Fournier and Forand, Analytic phase function for ocean water (1994), by the part that is scattered back: Mobley, Sundman and Boss, Phase function
-    /// effects on oceanic light fields (2002).
+    /// Fournier and Forand, Analytic phase function for ocean water (1994), by the part that is scattered back: Mobley, Sundman and Boss, Phase
+    /// function effects on oceanic light fields (2002).
     FournierForand {
         /// Refractive index of the particles within their liquid, above 1.
         ior: f32,
@@ -116,8 +116,8 @@ impl Blend {
     }
 }
 
-/// Fournier and Forand's ν, the logarithm of their δ over 1 − cosine, one minus their δ straight back, the factor of the last term, what draws by, and
-/// that it is no blend.
+/// Fournier and Forand's ν, the logarithm of their δ over 1 − cosine, one minus their δ straight back, the factor of the last term, what draws by,
+/// and that it is no blend.
 fn fournier_forand(ior: f64, backscatter: f64) -> [f64; ROW] {
     let back = 4.0 / (3.0 * (ior - 1.0) * (ior - 1.0));
     let across = back * 0.5 - 1.0;

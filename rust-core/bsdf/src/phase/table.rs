@@ -1,7 +1,8 @@
 //! The phase functions of a scene, a row each, on lanes: exact values, and directions by an inverse table of each.
 //!
-//! Closed inversions of Draine's function lose all digits in single precision near g = 0 (Jendersie and d'Eon's, for α of 250), and Fournier and Forand's has
-//! none. So the inverse of each distribution stands at [`BINS`] + 1 places, linear between; a factor near 1 makes up for what that leaves out.
+//! Closed inversions of Draine's function lose all digits in single precision near g = 0 (Jendersie and d'Eon's, for α of 250), and Fournier and
+//! Forand's has none. So the inverse of each distribution stands at [`BINS`] + 1 places, linear between; a factor near 1 makes up for what that
+//! leaves out.
 
 use super::kind::{Phase, ROW};
 use super::turned;

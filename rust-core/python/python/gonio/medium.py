@@ -47,10 +47,10 @@ def medium(
     phase: str = "henyey_greenstein",
     **numbers_of_phase: float,
 ) -> dict[str, Any]:
-    """An even medium: `medium` of a material's description, or what `Scene.put_atmosphere` takes. absorption, scattering: a metre, a number or R, G, B;
-    emission: cd/m² that a metre sends; anisotropy: mean cosine of the angle by which it scatters, from -0.999 back to 0.999 forwards. phase: the
-    function of that angle, with its numbers: "henyey_greenstein" and "draine" (alpha) by the anisotropy, "rayleigh", "fournier_forand" (ior,
-    backscatter: the part that goes back), "mie" (diameter: of droplets of water, micrometres).
+    """An even medium: `medium` of a material's description, or what `Scene.put_atmosphere` takes. absorption, scattering: a metre, a number or
+    R, G, B; emission: cd/m² that a metre sends; anisotropy: mean cosine of the angle by which it scatters, from -0.999 back to 0.999 forwards.
+    phase: the function of that angle, with its numbers: "henyey_greenstein" and "draine" (alpha) by the anisotropy, "rayleigh", "fournier_forand"
+    (ior, backscatter: the part that goes back), "mie" (diameter: of droplets of water, micrometres).
     """
     parts = {"absorption": absorption, "scattering": scattering, "emission": emission}
     coefficients = {name: _rgb(name, value) for name, value in parts.items()}

@@ -46,8 +46,8 @@ pub(super) fn add(
         diagnostics.push(Diagnostic::warning(origin, problem));
     }
     if held.phase != medium.phase {
-        let problem = "of a medium's phase function alpha is from 0 to 1000, ior from 1.001 to 3, backscatter from 0.005 to 0.499 and diameter from 0 to \
-                       50 micrometres; what is beyond is held there";
+        let problem = "of a medium's phase function alpha is from 0 to 1000, ior from 1.001 to 3, backscatter from 0.005 to 0.499 and diameter \
+                       from 0 to 50 micrometres; what is beyond is held there";
         diagnostics.push(Diagnostic::warning(origin, problem));
     }
     let Medium { absorption, scattering, emission, .. } = held;
