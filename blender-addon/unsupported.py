@@ -132,11 +132,9 @@ WORLDS = {
 
 MATERIALS = {
     "volume shader": Limit("Shaders of volume objects that are no volume's", "Principled Volume as it is made"),
-    "varying phase": Limit("Phase functions of volumes that vary from place to place", "the value of their socket"),
+    "varying phase": Limit("Numbers of phase functions of volumes that vary from place to place", "the value of their socket"),
     "volume": Limit("Volume shaders of meshes that are no volume's", "the inside stays empty; without a surface, rays pass"),
-    "phase": Limit(
-        "Phase functions beyond Henyey and Greenstein's, and sums of volumes of several", "Henyey and Greenstein's of the same mean cosine"
-    ),
+    "phase": Limit("Sums of volumes of several phase functions in one shader", "Henyey and Greenstein's of the same mean cosine"),
     "camera in volume": _untold(
         "Volumes whose surface goes through a lens or a parallel view; volumes around baked surfaces",
         "what the middle of the lens stands in counts for all of it; the texels' surroundings are clear",

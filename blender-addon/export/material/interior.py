@@ -8,7 +8,7 @@ from gonio.graph import Value
 
 from ...units import LUMENS_PER_WATT
 from .inputs import FACTOR
-from .phases import mean_cosine
+from .phases import Phase, described, henyey_greenstein, of_node
 from .sockets import THROUGH, follow, input_socket
 
 # More volume shaders than these in one tree are not followed.
@@ -23,15 +23,14 @@ class Unknown(Exception):
 
 @dataclass(frozen=True)
 class Medium:
-    """Coefficients a metre, R, G, B, as values of a graph. `turned` is scattering times its mean cosine, all colours together; `cosines` are the
-    mean cosines there are; `exact` says whether that tells all of the phase function."""
+    """Coefficients a metre, R, G, B, as values of a graph. `turned` is scattering times its mean cosine, all colours together; `phases` are the
+    phase functions there are."""
 
     absorption: Value
     scattering: Value
     emission: Value
     turned: Value
-    cosines: frozenset = frozenset()
-    exact: bool = True
+    phases: frozenset = frozenset()
 
     @property
     def is_even(self):
@@ -40,15 +39,20 @@ class Medium:
 
     @property
     def is_plain(self):
-        """Whether Henyey and Greenstein's function of one mean cosine tells all."""
-        return self.exact and len(self.cosines) <= 1
+        """Whether one phase function tells all."""
+        return len(self.phases) <= 1
+
+    @property
+    def phase(self):
+        """The phase function, where there is one alone."""
+        return next(iter(self.phases)) if len(self.phases) == 1 else None
 
     def described(self):
         """An even one as a material and a scene take it; empty where light goes through as if nothing were there."""
         parts = {name: [float(x) for x in getattr(self, name).constant[:3]] for name in ("absorption", "scattering", "emission")}
         if not any(any(part) for part in parts.values()):
             return {}
-        return {**parts, "anisotropy": anisotropy(parts["scattering"], self.turned.constant[0])}
+        return {**parts, **described(self.phase, anisotropy(parts["scattering"], self.turned.constant[0]))}
 
     def scaled(self, share):
         """So much of it."""
@@ -58,7 +62,7 @@ class Medium:
     def plus(self, other):
         """Both together."""
         sums = {name: getattr(self, name) + getattr(other, name) for name in ("absorption", "scattering", "emission", "turned")}
-        return Medium(**sums, cosines=self.cosines | other.cosines, exact=self.exact and other.exact)
+        return Medium(**sums, phases=self.phases | other.phases)
 
 
 def anisotropy(scattering, turned):
@@ -79,7 +83,7 @@ def usual(t):
     """What Cycles fills a volume object without a material with: Principled Volume as it is made."""
     density = t.primvar(FACTOR + "density", (1.0,) * 4, kind="VALUE").maximum(0.0)
     grey = t.graph.colour((0.5, 0.5, 0.5)) * density
-    return _scattered(t, grey, 0.0, absorption=grey)
+    return _scattered(t, grey, Phase(), absorption=grey)
 
 
 def _sum(t, socket, context, seen):
@@ -96,9 +100,9 @@ def _sum(t, socket, context, seen):
     return KINDS[node.bl_idname](t, node, context, seen)
 
 
-def _medium(t, absorption=None, scattering=None, emission=None, turned=None, cosines=frozenset(), exact=True):
+def _medium(t, absorption=None, scattering=None, emission=None, turned=None, phases=frozenset()):
     black = t.graph.colour((0.0, 0.0, 0.0))
-    return Medium(absorption or black, scattering or black, emission or black, turned or t.graph.scalar(0.0), cosines, exact)
+    return Medium(absorption or black, scattering or black, emission or black, turned or t.graph.scalar(0.0), phases)
 
 
 def _colour(t, node, context, name, default=0.0):
@@ -124,18 +128,18 @@ def _number(t, node, context, name, default=0.0):
     return input_socket(node, name).default_value
 
 
-def _scattered(t, scattering, cosine, absorption=None, emission=None, exact=True):
-    """A medium that scatters by this mean cosine."""
+def _scattered(t, scattering, phase, absorption=None, emission=None):
+    """A medium that scatters by this phase function."""
     if scattering.is_zero():
         return _medium(t, absorption, scattering, emission)
-    turned = scattering.dot((1.0, 1.0, 1.0)) * cosine
-    return _medium(t, absorption, scattering, emission, turned, frozenset({round(cosine, 6)}), exact)
+    turned = scattering.dot((1.0, 1.0, 1.0)) * phase.mean_cosine
+    return _medium(t, absorption, scattering, emission, turned, frozenset({phase}))
 
 
 def _by_phase(t, node, context, scattering, absorption=None, emission=None):
     """A medium that scatters as a node says."""
-    cosine, exact = mean_cosine(getattr(node, "phase", "HENYEY_GREENSTEIN"), lambda name: _number(t, node, context, name))
-    return _scattered(t, scattering, cosine, absorption, emission, exact)
+    phase = of_node(getattr(node, "phase", "HENYEY_GREENSTEIN"), lambda name: _number(t, node, context, name))
+    return _scattered(t, scattering, phase, absorption, emission)
 
 
 def _absorption(t, node, context, seen):
@@ -163,8 +167,8 @@ def _principled(t, node, context, seen):
     intensity = t.input(node, "Blackbody Intensity", context)
     if not (intensity.is_constant and intensity.constant[0] <= 0.0):
         emission = emission + _fire(t, node, context, intensity)
-    cosine = min(max(_number(t, node, context, "Anisotropy"), -0.999), 0.999)
-    return _scattered(t, colour * density, cosine, absorption, emission * LUMENS_PER_WATT)
+    phase = henyey_greenstein(_number(t, node, context, "Anisotropy"))
+    return _scattered(t, colour * density, phase, absorption, emission * LUMENS_PER_WATT)
 
 
 def _fire(t, node, context, intensity):

@@ -7,6 +7,7 @@ from hashlib import blake2b
 import numpy as np
 
 from ..material.interior import anisotropy
+from ..material.phases import Phase, described
 from .asked import Asked
 from .baked import MOST, bake
 
@@ -50,6 +51,8 @@ class Filling:
     told: list = field(default_factory=list)
     is_placed: bool = False
     stamp: object = None
+    # None where several are together, which scatter by their mean cosine.
+    phase: Phase | None = None
 
     def __post_init__(self):
         digest = blake2b(repr((self.stamp, self.glow, self.hottest)).encode(), digest_size=16)
@@ -61,7 +64,7 @@ class Filling:
     def medium(self, density):
         """The medium of a material, so many times as dense."""
         parts = {name: [float(x) * density for x in getattr(self, name)] for name in ("absorption", "scattering", "emission")}
-        return {**parts, "anisotropy": self.anisotropy}
+        return {**parts, **described(self.phase, self.anisotropy)}
 
 
 @dataclass
@@ -81,9 +84,11 @@ def fill(t, inside, grids, place):
         return None
     told = [("volume asks", ", ".join(sorted(dense.unknown | shining.unknown)))] if dense.unknown or shining.unknown else []
     try:
-        return _simple(dense, shining, grids, told) or _baked(dense, shining, grids, told)
+        filling = _simple(dense, shining, grids, told) or _baked(dense, shining, grids, told)
     finally:
         grids.forget_numbers()
+    filling.phase = inside.phase
+    return filling
 
 
 def _simple(dense, shining, grids, told):

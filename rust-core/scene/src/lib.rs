@@ -64,7 +64,7 @@ pub use light_quantity::{LUMENS_PER_WATT, LightQuantity};
 pub use linking::{Link, Linking};
 pub use material::{Closure, Distribution, FibreDirection, Material, Model, ShaderOutput, SubsurfaceMethod};
 pub use measured::MeasuredBsdf;
-pub use medium::{HAZE_ANISOTROPY, Medium, VISIBILITY_CONTRAST};
+pub use medium::{HAZE_ANISOTROPY, Medium, Phase, VISIBILITY_CONTRAST};
 pub use mesh::{Mesh, MeshKey, Primvar, PrimvarInterpolation};
 pub use meter::{Grid, GridArea, Measurand, Meter};
 pub use origin::Origin;

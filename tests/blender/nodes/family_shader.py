@@ -23,7 +23,15 @@ def _distributions(names: list[str], inputs: dict, field: str = "distribution", 
 ROUGH = {"Color": COLOUR, "Roughness": 0.35}
 METAL = {"Base Color": COLOUR, "Edge Tint": (0.9, 0.7, 0.5), "Roughness": 0.3}
 ON_MESHES = "on meshes, whose fibres lie along an edge of each triangle; strands are told of in [Hair](hair.md)"
-PHASES = ["HENYEY_GREENSTEIN", "FOURNIER_FORAND", "DRAINE", "RAYLEIGH", "MIE"]
+# Phase functions with their numbers. Draine's are where Cycles' own draws in single precision keep their digits.
+PHASES = {
+    "HENYEY_GREENSTEIN": {"Anisotropy": 0.4},
+    "FOURNIER_FORAND": {"IOR": 1.2, "Backscatter": 0.1},
+    "DRAINE": {"Anisotropy": 0.5, "Alpha": 2.0},
+    "RAYLEIGH": {},
+    "MIE": {"Diameter": 8.0},
+}
+SCATTER = {"Scatter Coefficients": (1.2, 0.7, 0.3)}
 
 NODES = {
     "ShaderNodeBsdfDiffuse": _lit("Diffuse BSDF", _case("smooth", {"Color": COLOUR}), _case("rough", {"Color": COLOUR, "Roughness": 0.6})),
@@ -87,11 +95,13 @@ NODES = {
     "ShaderNodeVolumeAbsorption": _lit("Volume Absorption", _case("all", {"Color": COLOUR, "Density": 1.5}, "volume"), family=VOLUME),
     "ShaderNodeVolumeScatter": _lit(
         "Volume Scatter",
-        *(_case(each, {"Color": COLOUR, "Density": 1.5}, "volume", fields={"phase": each}) for each in PHASES),
+        *(_case(each, {"Color": COLOUR, "Density": 1.5, **numbers}, "volume", fields={"phase": each}) for each, numbers in PHASES.items()),
         family=VOLUME,
     ),
     "ShaderNodeVolumePrincipled": _lit("Principled Volume", _case("all", {"Color": COLOUR, "Density": 1.5}, "volume"), family=VOLUME),
     "ShaderNodeVolumeCoefficients": _lit(
-        "Volume Coefficients", *(_case(each, {}, "volume", fields={"phase": each}) for each in PHASES), family=VOLUME
+        "Volume Coefficients",
+        *(_case(each, {**SCATTER, **numbers}, "volume", fields={"phase": each}) for each, numbers in PHASES.items()),
+        family=VOLUME,
     ),
 }

@@ -73,7 +73,7 @@ pub(super) fn read<'py>(context: &mut Context<'_, 'py>, material: &Prim<'py>) ->
     let coefficient = |input: Input| Some(even(input)?.map(|x| x / metres));
     let medium = || {
         let [absorption, scattering, emission] = [coefficient(absorption)?, coefficient(scattering)?, coefficient(emission)?];
-        Some(Medium { absorption, scattering, emission, anisotropy, field: None })
+        Some(Medium { absorption, scattering, emission, anisotropy, ..Medium::default() })
     };
     let found = medium();
     if found.is_none() {

@@ -12,6 +12,7 @@ mod measured;
 mod measurements;
 mod normals;
 mod phase;
+mod phases;
 mod ranges;
 mod rows;
 mod smooth;

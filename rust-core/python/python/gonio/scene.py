@@ -93,14 +93,17 @@ class Scene(_gonio.Scene):
         absorption: Coefficient = 0.0,
         emission: Coefficient = 0.0,
         anisotropy: float = 0.0,
+        phase: str = "henyey_greenstein",
         glow: Sequence[Sequence[float]] = (),
         voxel: float | Sequence[float] = 1.0,
         transform: Matrix | None = None,
         name: str = "volume",
+        **numbers_of_phase: float,
     ) -> int:
         """Adds smoke, a cloud or fire; gives the number of its field. `density`, an array (nx, ny, nz) or a VDB file and the name of its grid,
         multiplies scattering and absorption, 1/m; `heat`, likewise, the emission, cd/m² a metre, by the factors of `glow`, evenly from no heat to
-        the most. An array fills a box from the origin on, `voxel` metres a voxel; `transform` places that, or the file's space.
+        the most. An array fills a box from the origin on, `voxel` metres a voxel; `transform` places that, or the file's space. `anisotropy`, `phase`
+        and its numbers are those of `gonio.medium.medium`.
         """
         to_world = columns(transform)
         if not isinstance(density, tuple):
@@ -109,7 +112,7 @@ class Scene(_gonio.Scene):
         described = {"origin": name, "to_world": to_world, "glow": [numbers("glow", factor, 3) for factor in glow]}
         field = self.put_field(described, density=density, heat=heat)
         box, placed = self.put_field_box(field)
-        inside = medium(scattering=scattering, absorption=absorption, emission=emission, anisotropy=anisotropy)
+        inside = medium(scattering=scattering, absorption=absorption, emission=emission, anisotropy=anisotropy, phase=phase, **numbers_of_phase)
         filled = self.put_material(volume_material(name, {**inside, "field": field}))
         self.add_instance(box, [filled], transform=placed, name=name)
         return field

@@ -1,15 +1,19 @@
 //! How the media about a place scatter together: a mixture of their phase functions, weighed by their scattering.
+//!
+//! Where all of a scene are Henyey and Greenstein's, these are evaluated and inverted as they are; else all are rows of a table.
 
 use crate::media::set::MediaSet;
 use crate::tables::media::MediumTable;
 use gonio_bsdf::phase::{henyey_greenstein, sample_henyey_greenstein};
-use gonio_simd::{F, Lanes, M, Spectrum, Vec3};
+use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
 
 /// One of the media.
 #[derive(Clone, Copy, Debug)]
 struct Part<L: Lanes> {
     scattering: Spectrum<L>,
+    /// Mean cosine where the table has Henyey and Greenstein's functions alone, and the row of the phase function elsewhere.
     anisotropy: F<L>,
+    phase: U<L>,
 }
 
 /// The phase functions of up to four media.
@@ -50,11 +54,13 @@ impl<L: Lanes> PhaseMix<L> {
     pub(crate) fn at(l: L, media: MediaSet<L>, table: &MediumTable, densities: [F<L>; 4]) -> Self {
         let mut scattering = Spectrum::zero(l);
         let mut parts = [None; 4];
+        let varied = table.phases.is_varied();
         for ((part, row), density) in parts.iter_mut().zip(media.rows()).zip(densities) {
             if let Some(row) = row {
                 let own = table.scattering(l, row) * density;
                 scattering += own;
-                *part = Some(Part { scattering: own, anisotropy: table.anisotropy(l, row) });
+                let phase = if varied { table.phase(l, row) } else { l.u(0) };
+                *part = Some(Part { scattering: own, anisotropy: table.anisotropy(l, row), phase });
             }
         }
         Self { parts, scattering }
@@ -72,13 +78,14 @@ impl<L: Lanes> PhaseMix<L> {
         Self { parts, scattering: chosen.select(other.scattering, self.scattering) }
     }
 
-    /// Value and density at a cosine between the directions before and after.
+    /// Value and density of light that went along a direction and goes along another.
     #[inline(always)]
-    pub(crate) fn eval(&self, cos: F<L>) -> (Spectrum<L>, F<L>) {
-        let l = cos.lanes();
+    pub(crate) fn eval(&self, table: &MediumTable, from: Vec3<L>, to: Vec3<L>) -> (Spectrum<L>, F<L>) {
+        let l = from.x.lanes();
         let (mut sum, mut density) = (Spectrum::zero(l), l.f(0.0));
+        let (varied, cos) = (table.phases.is_varied(), from.dot(to));
         for part in self.parts.iter().flatten() {
-            let phase = henyey_greenstein(part.anisotropy, cos);
+            let phase = if varied { table.phases.value(l, part.phase, from, to) } else { henyey_greenstein(part.anisotropy, cos) };
             sum += part.scattering * phase;
             density = part.scattering.mean().mul_add(phase, density);
         }
@@ -88,19 +95,26 @@ impl<L: Lanes> PhaseMix<L> {
 
     /// Draws a direction for light that goes along another: `u[0]` chooses the medium.
     #[inline(always)]
-    pub(crate) fn sample(&self, along: Vec3<L>, u: [F<L>; 3]) -> PhaseSample<L> {
+    pub(crate) fn sample(&self, table: &MediumTable, along: Vec3<L>, u: [F<L>; 3]) -> PhaseSample<L> {
         let l = u[0].lanes();
         let mut point = u[0] * self.scattering.mean();
-        let (mut anisotropy, mut passed) = (l.f(0.0), l.m(false));
+        let (mut anisotropy, mut phase, mut passed) = (l.f(0.0), l.u(0), l.m(false));
         for part in self.parts.iter().flatten() {
             let share = part.scattering.mean();
             let here = point.lt(share).and_not(passed);
             anisotropy = here.select(part.anisotropy, anisotropy);
+            phase = here.select(part.phase, phase);
             passed |= here;
             point -= share;
         }
+        if table.phases.is_varied() {
+            // What is drawn comes a little more or less often than the density says, by which samples of lights weigh theirs too.
+            let (direction, factor) = table.phases.sample(l, phase, along, [u[1], u[2]]);
+            let (value, pdf) = self.eval(table, along, direction);
+            return PhaseSample { direction, pdf, factor: value * (factor / pdf.max(f32::MIN_POSITIVE)) };
+        }
         let direction = sample_henyey_greenstein(anisotropy, along, [u[1], u[2]]);
-        let (value, pdf) = self.eval(along.dot(direction));
+        let (value, pdf) = self.eval(table, along, direction);
         PhaseSample { direction, pdf, factor: value * pdf.max(f32::MIN_POSITIVE).recip() }
     }
 }

@@ -1,6 +1,7 @@
 //! The media of a scene, a row each: what fills closed meshes, or all of space, evenly or by a field.
 
 use crate::tables::fields::{FieldTable, ROW};
+use gonio_bsdf::phase::{Phase, PhaseTable};
 use gonio_simd::{Column, F, Lanes, PADDING, Rgb, Spectrum, U};
 
 /// A medium (pbrt's `HomogeneousMedium` and `GridMedium`); coefficients a metre, R, G, B.
@@ -12,8 +13,8 @@ pub struct Medium {
     pub scattering: [f32; 3],
     /// Radiance that a metre of it sends.
     pub emission: [f32; 3],
-    /// Mean cosine g of its phase function (Henyey and Greenstein), above −1 and below 1.
-    pub anisotropy: f32,
+    /// How it scatters.
+    pub phase: Phase,
     /// Row of the field that the coefficients are multiplied by, 0 for none.
     pub field: u32,
 }
@@ -27,7 +28,10 @@ pub struct MediumTable {
     field_extinction: [Column; 3],
     scattering: [Column; 3],
     emission: [Column; 3],
+    /// Rows of the phase functions, and mean cosines of those that are Henyey and Greenstein's.
+    phase: Column<u32>,
     anisotropy: Column,
+    pub(crate) phases: PhaseTable,
     field: Column<u32>,
     /// The fields.
     pub fields: FieldTable,
@@ -52,7 +56,11 @@ impl MediumTable {
         self.field_extinction = three(rows, |row, part| if row.field == 0 { 0.0 } else { extinction(row, part) });
         self.scattering = three(rows, |row, part| row.scattering[part]);
         self.emission = three(rows, |row, part| row.emission[part]);
-        self.anisotropy = column(rows, |row| row.anisotropy);
+        self.anisotropy = column(rows, |row| row.phase.henyey_greenstein().unwrap_or(0.0));
+        self.phase = Column::new(rows.len() + PADDING);
+        for (place, row) in self.phase[1..].iter_mut().zip(rows) {
+            *place = self.phases.add(row.phase);
+        }
         self.field = Column::new(rows.len() + PADDING);
         self.field[1..].iter_mut().zip(rows).for_each(|(place, row)| *place = row.field);
         self.scatters |= medium.scattering != [0.0; 3];
@@ -107,7 +115,12 @@ impl MediumTable {
         let [r, g, b, _] = l.gather_quads(&self.fields.glow, row * ROW as u32);
         Spectrum::radiance(Rgb::new(r, g, b))
     }
-    /// Mean cosines of some rows.
+    /// The phase functions of some rows.
+    #[inline(always)]
+    pub(crate) fn phase<L: Lanes>(&self, l: L, row: U<L>) -> U<L> {
+        l.gather_integers(&self.phase, row)
+    }
+    /// Mean cosines of some rows, where all phase functions are Henyey and Greenstein's.
     #[inline(always)]
     pub(crate) fn anisotropy<L: Lanes>(&self, l: L, row: U<L>) -> F<L> {
         l.gather(&self.anisotropy, row)

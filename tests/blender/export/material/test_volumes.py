@@ -82,6 +82,10 @@ NODES = {
     "emission": ("VolumePrincipled", {"Density": 0.3, "Emission Strength": 0.5, "Emission Color": (1.0, 0.5, 0.1, 1.0)}),
     "blackbody": ("VolumePrincipled", {"Density": 0.2, "Blackbody Intensity": 1.0, "Temperature": 1200.0}),
     "coefficients": ("VolumeCoefficients", {"Absorption Coefficients": (0.1, 0.3, 0.5), "Scatter Coefficients": (0.5, 0.2, 0.4)}),
+    "rayleigh": ("VolumeScatter", {"phase": "RAYLEIGH", "Color": (0.8, 0.6, 0.3, 1.0), "Density": 0.6}),
+    "draine": ("VolumeScatter", {"phase": "DRAINE", "Color": (0.8, 0.6, 0.3, 1.0), "Density": 0.6, "Anisotropy": 0.5, "Alpha": 2.0}),
+    "ocean": ("VolumeCoefficients", {"phase": "FOURNIER_FORAND", "Scatter Coefficients": (0.5, 0.2, 0.4), "IOR": 1.2, "Backscatter": 0.1}),
+    "mie": ("VolumeScatter", {"phase": "MIE", "Color": (0.8, 0.6, 0.3, 1.0), "Density": 0.6, "Diameter": 8.0}),
     "shining": ("Emission", {"Color": (0.2, 0.4, 1.0, 1.0), "Strength": 0.3}),
 }
 
@@ -144,12 +148,22 @@ def test_phases_and_what_is_no_volume_are_told(tmp_path):
     empty()
     made = fog("Rain", "VolumeScatter", phase="MIE", Diameter=20.0)
     description, lines = translated(made)
-    # Jendersie and d'Eon's fit has this mean cosine for droplets of 20 micrometres.
-    assert description["medium"]["anisotropy"] == pytest.approx(0.8793, abs=1e-3) and len(lines) == 1
+    assert description["medium"]["phase"] == {"Mie": {"diameter": 20.0}} and not lines
     made = fog("Sea", "VolumeScatter", phase="FOURNIER_FORAND", IOR=1.33, Backscatter=0.1)
-    assert translated(made)[0]["medium"]["anisotropy"] == pytest.approx(0.71546, abs=2e-3)
+    assert translated(made)[0]["medium"]["phase"] == {"FournierForand": {"ior": pytest.approx(1.33), "backscatter": pytest.approx(0.1)}}
     made = fog("Dust", "VolumeScatter", phase="DRAINE", Anisotropy=0.5, Alpha=0.5)
-    assert translated(made)[0]["medium"]["anisotropy"] == pytest.approx(0.54, abs=1e-3)
+    dust = translated(made)[0]["medium"]
+    assert dust["anisotropy"] == 0.5 and dust["phase"] == {"Draine": {"alpha": 0.5}}
+    # Several together are told: they scatter by the mean of their mean cosines, 0.54 of the dust and 0 of the air.
+    made, tree, end = material("Dusty air")
+    both = tree.nodes.new("ShaderNodeAddShader")
+    parts = [filled(tree, "VolumeScatter", phase="DRAINE", Anisotropy=0.5, Alpha=0.5), filled(tree, "VolumeScatter", phase="RAYLEIGH")]
+    for part, socket in zip(parts, both.inputs, strict=True):
+        tree.links.new(part.outputs[0], socket)
+    tree.links.new(both.outputs[0], end.inputs["Volume"])
+    description, lines = translated(made)
+    assert "phase" not in description["medium"] and description["medium"]["anisotropy"] == pytest.approx(0.27, abs=1e-3)
+    assert len(lines) == 1 and "Henyey" in lines[0]
     made, tree, end = material("Cloud")
     tree.links.new(tree.nodes.new("ShaderNodeBsdfDiffuse").outputs[0], end.inputs["Volume"])
     description, lines = translated(made)

@@ -13,5 +13,5 @@ pub(super) fn scattering(closure: &Closure, scatter: Input, anisotropy: f32) -> 
     let absorption = [0, 1, 2].map(|part| extinction[part] - scattering[part]);
     // No component absorbs less than nothing.
     let raised = absorption.iter().copied().fold(0.0_f32, |least, x| least.max(-x));
-    Some(Medium { absorption: absorption.map(|x| x + raised), scattering, emission: [0.0; 3], anisotropy, field: None })
+    Some(Medium { absorption: absorption.map(|x| x + raised), scattering, emission: [0.0; 3], anisotropy, ..Medium::default() })
 }

@@ -1,9 +1,10 @@
 //! Media as rows of the table that kernels read.
 
 use crate::{
+    bsdf::phase,
     error::Diagnostic,
     light::LightTable,
-    scene::{Medium, Origin},
+    scene::{Medium, Origin, Phase},
     transport::{self, MediumTable},
 };
 
@@ -19,6 +20,11 @@ pub(in crate::compile) fn report(atmosphere: &Medium, lights: &LightTable, diagn
 
 /// The largest magnitude of a mean cosine: beyond it light hardly turns at all.
 const MOST_ANISOTROPY: f32 = 0.999;
+/// What the numbers of phase functions are held in. Fournier and Forand's would be a single direction at an index of 1 and where nothing goes back.
+const ALPHA: [f32; 2] = [0.0, 1000.0];
+const IOR: [f32; 2] = [1.001, 3.0];
+const BACKSCATTER: [f32; 2] = [0.005, 0.499];
+const DIAMETER: [f32; 2] = [0.0, 50.0];
 
 /// Adds a medium and gives its row; `None` where nothing happens to light in it. What is out of range is held there, and told.
 pub(super) fn add(
@@ -34,13 +40,31 @@ pub(super) fn add(
         None => 0,
     };
     let held = held(medium);
-    if held != *medium {
+    if (Medium { phase: medium.phase, ..held }) != *medium {
         let problem =
             "coefficients of a medium are 0 or more and finite, its anisotropy is from -0.999 to 0.999; what is beyond is held there";
         diagnostics.push(Diagnostic::warning(origin, problem));
     }
-    let Medium { absorption, scattering, emission, anisotropy, .. } = held;
-    (!held.is_clear()).then(|| table.add(transport::Medium { absorption, scattering, emission, anisotropy, field }))
+    if held.phase != medium.phase {
+        let problem = "of a medium's phase function alpha is from 0 to 1000, ior from 1.001 to 3, backscatter from 0.005 to 0.499 and diameter \
+                       from 0 to 50 micrometres; what is beyond is held there";
+        diagnostics.push(Diagnostic::warning(origin, problem));
+    }
+    let Medium { absorption, scattering, emission, .. } = held;
+    (!held.is_clear()).then(|| table.add(transport::Medium { absorption, scattering, emission, phase: phase_of(&held), field }))
+}
+
+/// The phase function that kernels know; what does not scatter needs none.
+fn phase_of(held: &Medium) -> phase::Phase {
+    let g = held.anisotropy;
+    match held.phase {
+        _ if held.scattering == [0.0; 3] => phase::Phase::HenyeyGreenstein { g },
+        Phase::HenyeyGreenstein => phase::Phase::HenyeyGreenstein { g },
+        Phase::Rayleigh => phase::Phase::Draine { g: 0.0, alpha: 1.0 },
+        Phase::Draine { alpha } => phase::Phase::Draine { g, alpha },
+        Phase::FournierForand { ior, backscatter } => phase::Phase::FournierForand { ior, backscatter },
+        Phase::Mie { diameter } => phase::Phase::Mie { diameter },
+    }
 }
 
 fn held(medium: &Medium) -> Medium {
@@ -53,6 +77,19 @@ fn held(medium: &Medium) -> Medium {
         // Below zero it takes light away, as lamps of negative strength do.
         emission: medium.emission.map(finite),
         anisotropy,
+        phase: held_phase(medium.phase),
         field: medium.field,
+    }
+}
+
+fn held_phase(phase: Phase) -> Phase {
+    let within = |x: f32, [low, high]: [f32; 2]| if x.is_nan() { low } else { x.clamp(low, high) };
+    match phase {
+        Phase::HenyeyGreenstein | Phase::Rayleigh => phase,
+        Phase::Draine { alpha } => Phase::Draine { alpha: within(alpha, ALPHA) },
+        Phase::FournierForand { ior, backscatter } => {
+            Phase::FournierForand { ior: within(ior, IOR), backscatter: within(backscatter, BACKSCATTER) }
+        }
+        Phase::Mie { diameter } => Phase::Mie { diameter: within(diameter, DIAMETER) },
     }
 }

@@ -177,7 +177,7 @@ fn send_on<L: Lanes>(
 ) {
     let MediumContext { tables, transport, .. } = *context;
     let l = way.pdf.lanes();
-    let (phase, pdf) = way.phase.eval(way.direction.dot(sample.wi));
+    let (phase, pdf) = way.phase.eval(&tables.materials.media, way.direction, sample.wi);
     let weight = sample.delta.select(l.f(1.0), power_heuristic(of_point, pdf));
     let weight = weight * tables.lights.scattered_factor(l, sample.light, l.u(event::VOLUME));
     let whole = sample.radiance * way.core.throughput * left * phase * (weight / sample.pdf);

@@ -63,7 +63,7 @@ pub(super) fn go_on<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>, flight:
     let slot = way.core.slot;
     let [u_medium, u_roulette] = context.pair(l, slot, dimension::PHASE_CHOICE);
     let [u, v] = context.pair(l, slot, dimension::PHASE);
-    let sample = way.phase.sample(way.direction, [u_medium, u, v]);
+    let sample = way.phase.sample(&context.tables.materials.media, way.direction, [u_medium, u, v]);
     let throughput = way.core.throughput * flight.factor * sample.factor;
     let survival = survival(context.sample.depth, throughput * way.core.unguided, chosen);
     let alive = chosen & u_roulette.lt(survival) & throughput.is_lit() & throughput.max_component().is_finite();
