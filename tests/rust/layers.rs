@@ -36,7 +36,7 @@ fn lines_with(folder: &str, needle: &str) -> Vec<String> {
 }
 
 /// Crates of the engine from the ground up, and which others of gonio each may use.
-const CRATES: [(&str, &[&str]); 18] = [
+const CRATES: [(&str, &[&str]); 19] = [
     ("simd", &[]),
     ("formats", &[]),
     ("spectrum", &["formats"]),
@@ -44,6 +44,7 @@ const CRATES: [(&str, &[&str]); 18] = [
     ("mesh", &[]),
     ("road", &["formats"]),
     ("sky", &[]),
+    ("share", &[]),
     ("annual", &["formats", "sky"]),
     ("accel", &["simd"]),
     ("image", &["simd"]),

@@ -20,7 +20,8 @@ fn items(value: &Value) -> &[Value] {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let [from, to] = <[String; 2]>::try_from(std::env::args().skip(1).collect::<Vec<_>>()).map_err(|_| "expected picture.json page.html")?;
+    let [from, to] =
+        <[String; 2]>::try_from(std::env::args().skip(1).collect::<Vec<_>>()).map_err(|_| "expected picture.json page.html")?;
     let given: Value = serde_json::from_slice(&fs::read(from)?)?;
     let group = |group: &Value| -> Result<Group, std::io::Error> {
         let bytes = fs::read(group["light"].as_str().unwrap_or_default())?;

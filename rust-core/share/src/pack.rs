@@ -92,9 +92,8 @@ mod tests {
             (state >> 8) as f32 / 16_777_216.0
         };
         for [width, height] in [[1, 1], [5, 1], [1, 6], [17, 9]] {
-            let values: Vec<f32> = (0..3 * width * height)
-                .map(|_| if next() < 0.2 { 0.0 } else { 10f32.powf(8.0 * next() - 4.0) })
-                .collect();
+            let values: Vec<f32> =
+                (0..3 * width * height).map(|_| if next() < 0.2 { 0.0 } else { 10f32.powf(8.0 * next() - 4.0) }).collect();
             let steps = Steps::of(&values, 96);
             let expected: Vec<[u16; 3]> = values.as_chunks::<3>().0.iter().map(|colour| colour.map(|x| steps.code(x))).collect();
             assert_eq!(unpacked(&packed(&values, width, steps), width, height), expected);

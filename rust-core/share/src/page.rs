@@ -36,6 +36,11 @@ pub struct Page {
     pub error: f64,
 }
 
+impl Page {
+    /// The error where there is room enough.
+    pub const FINE: f64 = 0.004;
+}
+
 /// Makes a page. `still` makes a JPEG of the picture's light, three values a pixel, with its columns and rows.
 ///
 /// # Errors

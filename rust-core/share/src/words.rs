@@ -18,8 +18,7 @@ pub enum Language {
 
 impl Language {
     /// All of them, with the codes that name them (ISO 639-1).
-    pub const CODES: [(&'static str, Self); 4] =
-        [("en", Self::English), ("de", Self::German), ("fr", Self::French), ("es", Self::Spanish)];
+    pub const CODES: [(&'static str, Self); 4] = [("en", Self::English), ("de", Self::German), ("fr", Self::French), ("es", Self::Spanish)];
 
     /// The language's code.
     pub fn code(self) -> &'static str {

@@ -264,9 +264,9 @@ class Controls {
     const sum = (key) => rows.reduce((sum, group) => sum + group[key], 0);
     element('energy-rows').replaceChildren(...rows.map(({ name, now }) => row('td', name, now)));
     const share = sum('full') > 0 ? this.say('saved', { percent: this.percent.format(sum('now') / sum('full')) }) : '';
-    const total = row('th', this.words.total, sum('now'));
-    element('energy-total').replaceChildren(total, Object.assign(document.createElement('tr'), { innerHTML: '<td colspan="3"></td>' }));
-    element('energy-total').lastChild.firstChild.textContent = share;
+    const beside = document.createElement('tr');
+    beside.append(Object.assign(document.createElement('td'), { colSpan: 3, textContent: share }));
+    element('energy-total').replaceChildren(row('th', this.words.total, sum('now')), beside);
   }
 
   // The table that is printed.
