@@ -272,10 +272,11 @@ class Controls {
   // The table that is printed.
   paper() {
     const cells = [...element('paper-rows').rows].map((row) => [...row.cells]);
-    cells.forEach(([, level, tint], g) => {
-      const setting = this.show.mix[g];
+    cells.forEach(([, level, tint, power], g) => {
+      const setting = this.show.mix[g], { watts } = this.show.data.groups[g];
       level.textContent = this.percent.format(setting.level);
       tint.textContent = setting.kelvin ? `${this.whole.format(setting.kelvin)} K` : '–';
+      power.textContent = watts === null ? '–' : `${this.number.format(watts * setting.level)} W`;
     });
   }
 
