@@ -100,8 +100,10 @@ def browsed(page, script, plain=False):
     """What a script returns on a page, `show` and `controls` being the page's own."""
     if BROWSER is None:
         pytest.skip("there is no Chromium")
-    code = f"""<script>window.gonio.then(async ({{ show, controls, kind }}) => {{ {script} }}).catch((error) => `error: ${{error.stack}}`)
-        .then((found) => {{ const out = document.createElement('pre'); out.id = 'found'; out.textContent = JSON.stringify(found); document.body.append(out); }});
+    code = f"""<script>
+        const out = Object.assign(document.createElement('pre'), {{ id: 'found' }});
+        const told = (found) => {{ out.textContent = JSON.stringify(found); document.body.append(out); }};
+        window.gonio.then(async ({{ show, controls, kind }}) => {{ {script} }}).catch((error) => `error: ${{error.stack}}`).then(told);
         </script>"""
     copy = page.with_name("browsed.html")
     copy.write_text(page.read_text() + code)

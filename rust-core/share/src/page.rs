@@ -12,12 +12,13 @@ use std::collections::BTreeMap;
 const TEMPLATE: &str = include_str!("../web/page.html");
 const STYLE: &str = include_str!("../web/style.css");
 /// In the order in which they need each other.
-const SCRIPTS: [&str; 7] = [
+const SCRIPTS: [&str; 8] = [
     include_str!("../web/decode.js"),
     include_str!("../web/light.js"),
     include_str!("../web/gl.js"),
     include_str!("../web/plain.js"),
     include_str!("../web/show.js"),
+    include_str!("../web/figures.js"),
     include_str!("../web/controls.js"),
     include_str!("../web/start.js"),
 ];

@@ -1,32 +1,17 @@
-// Everything that hands, keys and eyes find around the picture.
-
-const element = (id) => document.getElementById(id);
+// What hands and keys find beside the picture: groups, scenes, view, and the line between before and now.
 
 class Controls {
   constructor(show, words) {
-    Object.assign(this, { show, words, place: null, kept: [] });
-    const language = document.documentElement.lang;
-    this.number = new Intl.NumberFormat(language, { maximumSignificantDigits: 3 });
-    this.percent = new Intl.NumberFormat(language, { style: 'percent', maximumFractionDigits: 1 });
-    this.whole = new Intl.NumberFormat(language, { maximumFractionDigits: 0 });
-    this.stops = new Intl.NumberFormat(language, { minimumFractionDigits: 1, maximumFractionDigits: 1, signDisplay: 'exceptZero' });
+    Object.assign(this, { show, words, kept: [] });
+    this.figures = new Figures(show, words);
     const scenes = show.data.scenes.map(({ name, settings }) => ({ name, mix: this.mixOf(settings) }));
     this.scenes = [{ name: words.asDesigned, mix: this.mixOf([]) }, ...scenes];
     this.groups = show.data.groups.map((group, number) => this.group(group, number));
     this.makeScenes();
     this.makeView();
-    this.makeEnergy();
-    this.makeReading();
     this.makeSplit();
-    this.makeNotes();
     document.addEventListener('keydown', (event) => this.key(event));
-    show.listeners.push(() => this.read());
     this.refresh();
-  }
-
-  // A sentence with its holes filled.
-  say(key, holes) {
-    return this.words[key].replace(/\{(\w+)\}/g, (_, name) => holes[name]);
   }
 
   mixOf(settings) {
@@ -42,8 +27,8 @@ class Controls {
     Object.assign(parts, { kelvin: part('kelvin'), kelvinText: part('kelvin-text'), before: 1 });
     part('name').textContent = group.name;
     part('name').htmlFor = parts.level.id = `level-${number}`;
-    parts.toggle.setAttribute('aria-label', this.say('switch', group));
-    parts.kelvin.setAttribute('aria-label', this.say('temperature', group));
+    parts.toggle.setAttribute('aria-label', this.figures.say('switch', group));
+    parts.kelvin.setAttribute('aria-label', this.figures.say('temperature', group));
     parts.tints.setAttribute('aria-label', `${this.words.tint}: ${group.name}`);
     parts.kelvin.value = 4000;
     parts.kelvin.style.setProperty('--fill', this.colours());
@@ -97,18 +82,18 @@ class Controls {
       const { level, kelvin } = show.mix[number];
       parts.level.value = Math.round(100 * level);
       parts.level.style.setProperty('--part', `${(100 * level) / 1.5}%`);
-      parts.text.textContent = this.percent.format(level);
+      parts.text.textContent = this.figures.percent.format(level);
       parts.toggle.setAttribute('aria-checked', level > 0);
       parts.tints.checked = kelvin > 0;
       parts.kelvin.hidden = parts.kelvinText.hidden = !kelvin;
       if (kelvin) parts.kelvin.value = kelvin;
-      parts.kelvinText.textContent = `${this.whole.format(parts.kelvin.value)} K`;
+      parts.kelvinText.textContent = `${this.figures.whole.format(parts.kelvin.value)} K`;
     });
     const same = (mix) => JSON.stringify(mix) === JSON.stringify(show.mix);
     this.chips.forEach((chip, number) => chip.setAttribute('aria-pressed', same(this.scenes[number].mix)));
     element('stops').value = show.stops;
     element('stops').style.setProperty('--part', `${((show.stops + 6) / 12) * 100}%`);
-    element('stops-text').textContent = `${this.stops.format(show.stops)} EV`;
+    element('stops-text').textContent = `${this.figures.stops.format(show.stops)} EV`;
     element('adapts').checked = show.adapts;
     element('show-false').checked = show.falseColour;
     element('show-picture').checked = !show.falseColour;
@@ -117,10 +102,7 @@ class Controls {
     const compares = show.split !== null;
     element('compares').checked = compares;
     for (const id of ['before-row', 'split', 'tag-before', 'tag-after']) element(id).hidden = !compares;
-    if (show.falseColour) this.legend();
-    this.energy();
-    this.paper();
-    this.read();
+    this.figures.refresh();
   }
 
   makeView() {
@@ -139,7 +121,7 @@ class Controls {
     on('before', 'change', (list) => this.takeBefore(list.value));
     let most = show.most / 1000;
     for (let i = 0; i < 16; i++, most = roundUp(most * 1.5)) {
-      const text = `${this.number.format(roundUp(most))} cd/m²`;
+      const text = `${this.figures.number.format(roundUp(most))} cd/m²`;
       element('most').append(new Option(text, roundUp(most), false, roundUp(most) === show.most));
     }
     this.listBefore(0);
@@ -153,13 +135,14 @@ class Controls {
   // Mixes that may stand before: scenes, those kept, and the present one.
   listBefore(chosen) {
     const names = [...this.scenes, ...this.kept].map(({ name }) => name);
-    element('before').replaceChildren(...names.map((name, i) => new Option(name, i, false, i === chosen)), new Option(this.words.keep, 'keep'));
+    const options = names.map((name, i) => new Option(name, i, false, i === chosen));
+    element('before').replaceChildren(...options, new Option(this.words.keep, 'keep'));
   }
 
   takeBefore(value) {
     if (value === 'keep') {
       const time = new Date().toLocaleTimeString(document.documentElement.lang, { hour: '2-digit', minute: '2-digit', second: '2-digit' });
-      this.kept.push({ name: this.say('kept', { time }), mix: this.show.mix.map((setting) => ({ ...setting })) });
+      this.kept.push({ name: this.figures.say('kept', { time }), mix: this.show.mix.map((setting) => ({ ...setting })) });
       value = this.scenes.length + this.kept.length - 1;
       this.listBefore(value);
     }
@@ -194,100 +177,6 @@ class Controls {
     const percent = Math.round(100 * (this.show.split ?? 0.5));
     element('split').style.left = `${100 * (this.show.split ?? 0.5)}%`;
     element('split').setAttribute('aria-valuenow', percent);
-  }
-
-  makeReading() {
-    const canvas = element('canvas'), { width, height } = this.show.light;
-    const within = (x, most) => Math.min(Math.max(Math.floor(x), 0), most - 1);
-    const point = (event) => {
-      const box = canvas.getBoundingClientRect();
-      this.place = [within(((event.clientX - box.left) / box.width) * width, width), within(((event.clientY - box.top) / box.height) * height, height)];
-      this.read();
-    };
-    canvas.addEventListener('pointermove', point);
-    canvas.addEventListener('pointerdown', point);
-    canvas.addEventListener('keydown', (event) => {
-      const [x, y] = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key] || [0, 0];
-      if (!x && !y) return;
-      event.preventDefault();
-      const size = event.shiftKey ? 1 : Math.max(1, Math.round(width / 100));
-      const [column, row] = this.place || [width >> 1, height >> 1];
-      this.place = [within(column + x * size, width), within(row + y * size, height)];
-      element('readout').setAttribute('aria-live', 'polite');
-      this.read();
-    });
-  }
-
-  // The luminance at the place pointed at.
-  read() {
-    const { width, height } = this.show.light, mark = element('mark'), out = element('readout');
-    mark.hidden = !this.place;
-    if (!this.place) {
-      out.textContent = this.words.point;
-      return;
-    }
-    const [x, y] = this.place, value = document.createElement('b');
-    mark.style.left = `${((x + 0.5) / width) * 100}%`;
-    mark.style.top = `${((y + 0.5) / height) * 100}%`;
-    value.textContent = `${this.number.format(this.show.luminanceAt(x, y))} cd/m²`;
-    out.replaceChildren(value, ` · ${x}, ${y}`);
-  }
-
-  legend() {
-    const edges = edgesBelow(this.show.most);
-    const swatches = RAMP.map((colour, step) => {
-      const swatch = document.createElement('span');
-      swatch.style.setProperty('--swatch', `rgb(${colour.join(' ')})`);
-      if (step) swatch.append(Object.assign(document.createElement('b'), { textContent: this.number.format(edges[step - 1]) }));
-      return swatch;
-    });
-    element('legend').replaceChildren(...swatches, Object.assign(document.createElement('em'), { textContent: 'cd/m²' }));
-  }
-
-  makeEnergy() {
-    const { groups, hours } = this.show.data;
-    element('energy').hidden = groups.every(({ watts }) => watts === null);
-    element('hours').value = hours;
-    element('hours').addEventListener('input', () => this.energy());
-  }
-
-  energy() {
-    const hours = Math.min(Math.max(Number(element('hours').value) || 0, 0), 8784), { groups } = this.show.data;
-    const row = (tag, name, watts) => {
-      const line = document.createElement('tr');
-      const texts = [name, this.number.format(watts), this.whole.format((watts * hours) / 1000)];
-      line.append(...texts.map((text) => Object.assign(document.createElement(tag), { textContent: text })));
-      return line;
-    };
-    const known = groups.map(({ name, watts }, g) => ({ name, full: watts, now: (watts || 0) * this.show.mix[g].level }));
-    const rows = known.filter(({ full }) => full !== null);
-    const sum = (key) => rows.reduce((sum, group) => sum + group[key], 0);
-    element('energy-rows').replaceChildren(...rows.map(({ name, now }) => row('td', name, now)));
-    const share = sum('full') > 0 ? this.say('saved', { percent: this.percent.format(sum('now') / sum('full')) }) : '';
-    const beside = document.createElement('tr');
-    beside.append(Object.assign(document.createElement('td'), { colSpan: 3, textContent: share }));
-    element('energy-total').replaceChildren(row('th', this.words.total, sum('now')), beside);
-  }
-
-  // The table that is printed.
-  paper() {
-    const cells = [...element('paper-rows').rows].map((row) => [...row.cells]);
-    cells.forEach(([, level, tint, power], g) => {
-      const setting = this.show.mix[g], { watts } = this.show.data.groups[g];
-      level.textContent = this.percent.format(setting.level);
-      tint.textContent = setting.kelvin ? `${this.whole.format(setting.kelvin)} K` : '–';
-      power.textContent = watts === null ? '–' : `${this.number.format(watts * setting.level)} W`;
-    });
-  }
-
-  makeNotes() {
-    const { size: [width, height], original: [columns, rows], perStop, groups } = this.show.data;
-    const notes = [this.words.keys, this.words.noteRead, this.say('noteAccuracy', { percent: this.percent.format(2 ** (0.5 / perStop) - 1) })];
-    if (width !== columns || height !== rows) notes.push(this.say('noteSize', { width, height, columns, rows }));
-    notes.push(this.words.noteTint);
-    if (groups.some(({ watts }) => watts !== null)) notes.push(this.words.noteEnergy);
-    notes.push(this.words.noteScreen);
-    element('notes').append(...notes.map((note) => Object.assign(document.createElement('li'), { textContent: note })));
   }
 
   key(event) {
