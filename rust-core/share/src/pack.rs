@@ -13,11 +13,10 @@ const EVEN: u16 = 1 << 15;
 pub(super) fn packed(values: &[f32], width: usize, steps: Steps) -> Vec<u8> {
     let codes: Vec<[u16; 3]> = values.as_chunks::<3>().0.iter().map(|colour| colour.map(|light| steps.code(light))).collect();
     let difference = |a: u16, b: u16| a.wrapping_sub(b).wrapping_add(EVEN);
-    let planes: [fn(&[u16; 3], &dyn Fn(u16, u16) -> u16) -> u16; 3] =
-        [|[_, g, _], _| *g, |[r, g, _], less| less(*r, *g), |[_, g, b], less| less(*b, *g)];
+    let of = |channel: usize, code: &[u16; 3]| if channel == 1 { code[1] } else { difference(code[channel], code[1]) };
     let mut bytes = Vec::with_capacity(6 * codes.len());
-    for plane in planes {
-        let plane: Vec<u16> = codes.iter().map(|code| plane(code, &difference)).collect();
+    for channel in [1, 0, 2] {
+        let plane: Vec<u16> = codes.iter().map(|code| of(channel, code)).collect();
         let residues = residues(&plane, width);
         bytes.extend(residues.iter().map(|residue| *residue as u8));
         bytes.extend(residues.iter().map(|residue| (residue >> 8) as u8));
