@@ -3,8 +3,9 @@
 use super::{file, radiance};
 use gonio::{
     Error, Result,
-    film::PictureView,
+    film::{Frame, Image, Layer, PictureView},
     output::{Channels, read_exr, view_of_exr},
+    scene::{Aov, Crop},
 };
 use std::path::Path;
 
@@ -20,6 +21,22 @@ pub(super) struct Picture {
     pub(super) size: [usize; 2],
     pub(super) view: View,
     chosen: usize,
+}
+
+/// A picture of red, green, blue and coverage, rows from the top.
+pub(super) fn picture_of(values: Vec<f32>, size: [usize; 2]) -> Image {
+    let resolution = size.map(|side| side as u32);
+    Image {
+        resolution,
+        window: Crop { min: [0; 2], max: resolution },
+        frame: Frame::default(),
+        backdrop: Default::default(),
+        layers: vec![Layer { aov: Aov::Color, name: "color".into(), values, channels: 4 }],
+        samples: 1,
+        mean_samples: 1.0,
+        manifests: Default::default(),
+        deep: None,
+    }
 }
 
 impl Picture {

@@ -2,14 +2,12 @@
 
 use super::{
     arguments::{FalsecolorOptions, ScaleArguments},
-    channel::Picture,
+    channel::{Picture, picture_of},
     file::{check_ending, check_targets, print_path, put},
 };
 use gonio::{
     Error, Result,
-    film::{Frame, Image, Layer},
     output::{Canvas, FalseColour, FalseColourScale, Look, display, encode_png},
-    scene::{Aov, Crop},
 };
 use gonio_simd::Execution;
 use std::path::Path;
@@ -62,17 +60,6 @@ fn tone_mapped(picture: &Picture, path: &Path) -> Result<Canvas> {
     };
     let [red, green, blue] = [colour("R")?, colour("G")?, colour("B")?];
     let values = red.iter().zip(green).zip(blue).flat_map(|((r, g), b)| [*r, *g, *b, 1.0]).collect();
-    let resolution = picture.size.map(|side| side as u32);
-    let image = Image {
-        resolution,
-        window: Crop { min: [0; 2], max: resolution },
-        frame: Frame::default(),
-        backdrop: Default::default(),
-        layers: vec![Layer { aov: Aov::Color, name: "color".into(), values, channels: 4 }],
-        samples: 1,
-        mean_samples: 1.0,
-        manifests: Default::default(),
-        deep: None,
-    };
+    let image = picture_of(values, picture.size);
     Ok(Canvas { rgba: display(&image, &Look::default(), Execution::detect()), size: picture.size })
 }

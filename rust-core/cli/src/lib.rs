@@ -7,6 +7,7 @@ mod bench;
 mod bsdf;
 mod channel;
 mod checkpoint;
+mod client_page;
 mod compare;
 mod completion;
 mod daylight;
@@ -108,6 +109,7 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
         Command::Map(options) => map::map(py, &options, &INTERRUPTED),
         Command::Falsecolor(options) => py.detach(|| falsecolor::falsecolor(&options)),
         Command::Report(options) => report::report(py, &options, &INTERRUPTED),
+        Command::Share(options) => client_page::share(py, &options, &INTERRUPTED),
         Command::Road(options) => py.detach(|| road::road(&options, &INTERRUPTED)),
         Command::Annual(options) => annual::trace::annual(py, &options, &INTERRUPTED),
         Command::AnnualMetrics(options) => py.detach(|| annual::annual_metrics(&options, &INTERRUPTED)),

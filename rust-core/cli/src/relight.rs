@@ -13,9 +13,10 @@ use gonio::{
     output::{Channels, ExrOptions, exposure_of_exr, read_exr, view_of_exr, write_exr},
     scene::{Aov, Crop},
 };
+use std::path::Path;
 
 /// What stands before a group's name in the names of its channels.
-const PREFIX: &str = "lightgroup:";
+pub(super) const PREFIX: &str = "lightgroup:";
 
 /// Share of a picture's light that its groups may lack: rounding to half precision and denoising stay below.
 const MOST_MISSING: f64 = 0.01;
@@ -27,22 +28,12 @@ pub(super) fn relight(options: &RelightOptions) -> Result<i32> {
     let asked = options.group.iter().map(|text| parse(text)).collect::<Result<Vec<_>>>()?;
     let (channels, size) = read_exr(&options.image)?;
     let exposure = exposure_of_exr(&options.image)?;
-    let names = groups(&channels);
-    if names.is_empty() {
-        let problem = "it has no light groups; gonio render --light-groups writes them".into();
-        return Err(Error::Format { path: options.image.clone(), line: None, problem });
-    }
+    let names = groups_of(&options.image, &channels)?;
     if let Some((unknown, _)) = asked.iter().find(|(name, _)| !names.contains(name)) {
         let problem = format!("there is no light group '{unknown}', expected one of {}", names.join(", "));
         return Err(Error::Setting { name: "group".into(), problem });
     }
-    let missing = missing(&channels, &names);
-    if missing > MOST_MISSING {
-        let percent = 100.0 * missing;
-        say(&format!(
-            "warning: {percent:.0} % of the light belongs to no group of the file and is left out; gonio render --light-groups writes all"
-        ));
-    }
+    tell_missing(missing(&channels, &names));
     let factor = |name: &String| asked.iter().rev().find(|(asked, _)| asked == name).map_or([1.0; 3], |(_, factor)| *factor);
     let mut image = relit(&channels, size, exposure, &names, factor);
     image.frame.view = view_of_exr(&options.image)?;
@@ -63,17 +54,37 @@ fn parse(text: &str) -> Result<(String, [f32; 3])> {
     Ok((name.to_owned(), colour.map(|x| x * factor)))
 }
 
+/// Names of the groups of a file's channels, of which there must be some.
+pub(super) fn groups_of(path: &Path, channels: &Channels) -> Result<Vec<String>> {
+    let names = groups(channels);
+    if names.is_empty() {
+        let problem = "it has no light groups; gonio render --light-groups writes them".into();
+        return Err(Error::Format { path: path.to_owned(), line: None, problem });
+    }
+    Ok(names)
+}
+
+/// Warns if a share of the light is in none of the groups.
+pub(super) fn tell_missing(share: f64) {
+    if share > MOST_MISSING {
+        let percent = 100.0 * share;
+        say(&format!(
+            "warning: {percent:.0} % of the light belongs to no group of the file and is left out; gonio render --light-groups writes all"
+        ));
+    }
+}
+
 /// Names of the groups that the channels hold.
 fn groups(channels: &Channels) -> Vec<String> {
     channels.iter().filter_map(|(name, _)| Some(name.strip_prefix(PREFIX)?.strip_suffix(".R")?.to_owned())).collect()
 }
 
-fn find<'a>(channels: &'a Channels, name: &str) -> Option<&'a [f32]> {
+pub(super) fn find<'a>(channels: &'a Channels, name: &str) -> Option<&'a [f32]> {
     channels.iter().find(|(known, _)| known == name).map(|(_, values)| values.as_slice())
 }
 
 /// The share of the colour's light that is in none of the groups.
-fn missing(channels: &Channels, names: &[String]) -> f64 {
+pub(super) fn missing(channels: &Channels, names: &[String]) -> f64 {
     let light = |prefix: &str| -> f64 {
         let values = ["R", "G", "B"].into_iter().filter_map(|channel| find(channels, &format!("{prefix}{channel}"))).flatten();
         values.copied().filter(|value| value.is_finite()).map(f64::from).sum()

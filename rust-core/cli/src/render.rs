@@ -291,6 +291,9 @@ impl Job<'_> {
                 say(&note.to_string());
             }
         }
+        if options.lamp_groups {
+            loaded.scene.group_by_lamp();
+        }
         let light_groups = loaded.scene.light_groups();
         let settings = &mut loaded.scene.settings;
         settings.samples = options.spp.unwrap_or(settings.samples);
@@ -329,7 +332,7 @@ impl Job<'_> {
             ask_for_deep(settings);
         }
         settings.deep_tolerance = options.deep_tolerance;
-        if options.light_groups {
+        if options.light_groups || options.lamp_groups {
             settings.add_light_groups(light_groups);
         }
         if let Some(crop) = &options.crop {

@@ -170,6 +170,13 @@ impl Scene {
         names
     }
 
+    /// Makes each light a group by the last part of its name, unless some light or surface names a group.
+    pub fn group_by_lamp(&mut self) {
+        if self.light_groups().len() == 1 {
+            self.lights.iter_mut().for_each(|light| light.group = light.origin.name.rsplit('/').next().unwrap_or_default().to_owned());
+        }
+    }
+
     /// Adds a mesh.
     pub fn add_mesh(&mut self, mesh: Mesh) -> MeshId {
         self.meshes.push(mesh);

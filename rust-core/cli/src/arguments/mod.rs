@@ -4,6 +4,7 @@ mod annual;
 mod bench;
 mod bsdf;
 mod checkpoint;
+mod client_page;
 mod completion;
 mod daylight;
 mod falsecolor;
@@ -30,6 +31,7 @@ pub(super) use annual::{AnnualMetricsOptions, AnnualOptions, MetricArgument, Yea
 pub(super) use bench::BenchOptions;
 pub(super) use bsdf::{BsdfOptions, SampleArguments};
 pub(super) use checkpoint::{CheckpointArguments, MergeArguments};
+pub(super) use client_page::ShareOptions;
 pub(super) use completion::{CompletionOptions, ShellArgument};
 pub(super) use daylight::DaylightArguments;
 pub(super) use falsecolor::{FalsecolorOptions, ScaleArguments};
@@ -54,6 +56,7 @@ pub(super) use work::WorkArguments;
 use annual::{ANNUAL_EXAMPLES, ANNUAL_METRICS_EXAMPLES};
 use bsdf::BSDF_EXAMPLES;
 use clap::{Parser, Subcommand, ValueEnum};
+use client_page::SHARE_EXAMPLES;
 use gonio::scene::Integrator;
 use goniometer::GONIOMETER_EXAMPLES;
 use map::MAP_EXAMPLES;
@@ -155,6 +158,12 @@ pub(super) enum Command {
     /// EULUMDAT file; the other lights stand in the schedule with what is known of them.
     #[command(after_long_help = REPORT_EXAMPLES)]
     Report(Box<ReportOptions>),
+    /// Write one HTML page on which a client plays with the light of a finished picture: dims, tints, measures and compares.
+    ///
+    /// The page holds everything and needs neither a server nor the network. Browsers mix the light groups as 'gonio relight' does and show them as
+    /// 'gonio render -o picture.png' does.
+    #[command(after_long_help = SHARE_EXAMPLES)]
+    Share(Box<ShareOptions>),
     /// Calculate a road's lighting as EN 13201-3 and CIE 140 do: Lav, Uo, Ul, TI, EIR and illuminances, from luminaires' files and a TOML file.
     ///
     /// Says whether the values that the file requires are met, and looks for the largest spacing of luminaires that meets them. It is no certificate of a

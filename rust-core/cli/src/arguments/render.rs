@@ -90,6 +90,9 @@ pub(crate) struct RenderOptions {
     /// Write a pass for every light group, those that `gonio:lightGroup` names and 'other' for all other lights; together they are the colour.
     #[arg(long = "light-groups")]
     pub(crate) light_groups: bool,
+    /// As --light-groups; where the stage names no group, each lamp is one by its own name, and lamps of one name are one.
+    #[arg(long = "lamp-groups")]
+    pub(crate) lamp_groups: bool,
     /// Part of the picture: left, top, right, bottom in pixels, or from 0 to 1 if one has a decimal point.
     #[arg(long, num_args = 4, value_names = ["X0", "Y0", "X1", "Y1"], allow_hyphen_values = true, overrides_with = "crop")]
     pub(crate) crop: Option<Vec<String>>,

@@ -1,6 +1,7 @@
 //! One HTML page that needs nothing beside itself.
 
-use super::{base64, head::Head};
+use super::head::Head;
+use base64::{Engine, engine::general_purpose::STANDARD};
 use gonio_formats::escape;
 
 /// How the page looks, on a screen and on paper.
@@ -69,7 +70,7 @@ impl Page {
     }
 
     fn figure(&mut self, class: &str, format: &str, bytes: &[u8], caption: &str) {
-        let (data, caption) = (base64::encoded(bytes), escaped(caption));
+        let (data, caption) = (STANDARD.encode(bytes), escaped(caption));
         let image = format!("<img alt=\"{caption}\" src=\"data:image/{format};base64,{data}\">");
         self.text.push_str(&format!("<figure{class}>{image}<figcaption>{caption}</figcaption></figure>\n"));
     }

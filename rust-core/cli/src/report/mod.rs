@@ -1,6 +1,5 @@
 //! `gonio report`.
 
-mod base64;
 mod grids;
 mod head;
 mod html;
