@@ -1,9 +1,10 @@
 //! The light of a whole variant.
 
-use super::{EmitterUse, Gldf, Light, RatedFlux, Variant};
+use super::{Emergency, EmitterUse, Gldf, Light, RatedFlux, Variant};
 use crate::archive::inside;
 use crate::error::{FormatError, Result};
 use crate::l3d::L3d;
+use crate::photometry::check::TOLERANCE;
 use crate::photometry::text::{number, quote};
 use crate::photometry::{Goniogram, HeaderLine, LampSet};
 use std::collections::BTreeMap;
@@ -56,6 +57,29 @@ impl Gldf<'_> {
         total.header = self.header(variant, total.header);
         total.warnings.extend(warnings);
         Ok(total)
+    }
+
+    /// The flux of a variant in lm in an emergency; `None` where none of its lights shines then.
+    ///
+    /// # Errors
+    /// As [`Self::goniogram`].
+    pub fn emergency_flux(&self, variant: &Variant) -> Result<Option<f64>> {
+        let mut lights = Vec::new();
+        for EmitterUse { emitter, .. } in variant.emitters.iter().take(MOST_LIGHTS) {
+            let emitter = &self.emitters[emitter.clone()?];
+            lights.extend(emitter.lights.iter().filter(|light| light.emergency != Emergency::None).take(MOST_LIGHTS));
+        }
+        let mut sum = None;
+        for light in lights.into_iter().take(MOST_LIGHTS) {
+            // Of a light whose flux is stated the photometry is not asked.
+            let flux = match (light.emergency_flux, light.rated) {
+                (Some(flux), _) => flux,
+                (None, Some(RatedFlux::Luminaire(rated))) => rated,
+                (None, _) => self.parts(&[light])?.by_file.values().map(|part| part.flux * part.weight).sum(),
+            };
+            sum = light.flux_in_emergency(flux).map(|flux| flux + sum.unwrap_or(0.0)).or(sum);
+        }
+        Ok(sum)
     }
 
     /// The lights that shine while there is no emergency, as often as the variant has them.
@@ -120,13 +144,18 @@ impl Gldf<'_> {
     }
 }
 
+/// Whether two fluxes are one, measured twice.
+fn near(one: f64, other: f64) -> bool {
+    (one / other - 1.0).abs() <= TOLERANCE
+}
+
 /// How often a photometry shines in a light of a rated flux, and what is to be told of it.
 fn weight(rated: Option<RatedFlux>, part: &Part) -> (f64, Option<String>) {
     let lamps = part.found.lamps().filter(|lamps| !lamps.absolute).and_then(|lamps| lamps.flux).filter(|flux| *flux > 0.0);
     let (rated, own, whose) = match (rated, lamps) {
         (None, _) => return (1.0, None),
         // Some state the lamps' flux where the luminaire's belongs.
-        (Some(RatedFlux::Luminaire(rated)), Some(lamps)) if (rated / lamps - 1.0).abs() <= ROUNDED => (rated, lamps, "lamps'"),
+        (Some(RatedFlux::Luminaire(rated)), Some(lamps)) if near(rated, lamps) && !near(rated, part.flux) => (rated, lamps, "lamps'"),
         (Some(RatedFlux::Luminaire(rated)), _) => (rated, part.flux, "light's"),
         (Some(RatedFlux::Lamps(rated)), Some(lamps)) => (rated, lamps, "lamps'"),
         (Some(RatedFlux::Lamps(rated)), None) => {

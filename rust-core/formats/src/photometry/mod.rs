@@ -14,7 +14,7 @@ pub mod tm33;
 mod arrange;
 mod axis;
 mod beside;
-mod check;
+pub(crate) mod check;
 mod cone;
 mod convert;
 mod direct_ratio;
@@ -61,11 +61,21 @@ pub fn read(bytes: &[u8], name: &str) -> Result<Goniogram> {
 /// # Errors
 /// As [`read`].
 pub fn read_with(bytes: &[u8], name: &str, beside: &mut Beside<'_>) -> Result<Goniogram> {
+    read_variant(bytes, name, gldf::split_variant(name).1, beside)
+}
+
+/// The same, for a variant that is named apart ([`Gldf::variant`] says how); without one the first.
+///
+/// # Errors
+/// As [`read`], or a variant of what is no GLDF file.
+pub fn read_variant(bytes: &[u8], name: &str, asked: Option<&str>, beside: &mut Beside<'_>) -> Result<Goniogram> {
     if !gldf::looks_like(bytes) {
-        return read_single(bytes, name, beside);
+        return match asked {
+            None => read_single(bytes, name, beside),
+            Some(_) => Err(FormatError::whole("a variant was asked for, but the file is no GLDF archive")),
+        };
     }
     let product = Gldf::read(bytes)?;
-    let (_, asked) = gldf::split_variant(name);
     let chosen = product.variant(asked)?;
     let mut found = product.goniogram(&product.variants[chosen])?;
     if asked.is_none() && product.variants.len() > 1 {
