@@ -142,3 +142,29 @@ def test_archives_without_a_product(run, tmp_path):
 def test_spectra_of_a_product(run, lamp):
     found = json.loads(run("spectrum", lamp, "--json").stdout)
     assert (found["points"], found["first_nm"], found["last_nm"]) == (3, 380, 780)
+
+
+def test_roads_take_a_variant(run, lamp, tmp_path):
+    write(tmp_path / "lamp.gldf")
+    run("photometry", lamp, "--variant", "high", "--convert", tmp_path / "high.ldt")
+    road = """[road]
+carriageway_width = 7.0
+lanes = 2
+surface = "lambert"
+reflectance = 0.2
+[[row]]
+luminaire = "{}"
+spacing = 30
+height = 8
+overhang = 0.5
+side = "right"
+"""
+    found = []
+    for number, name in enumerate(("lamp.gldf#high", "high.ldt")):
+        file = tmp_path / f"road{number}.toml"
+        file.write_text(road.format(name))
+        found.append(json.loads(run("road", file, "--json").stdout))
+    names = [name for name in found[0] if isinstance(found[0][name], float)]
+    assert names
+    for name in names:
+        assert found[0][name] == pytest.approx(found[1][name], rel=1e-4), name

@@ -115,8 +115,7 @@ fn read(
     instead: &str,
 ) -> Option<photometry::Goniogram> {
     let py = context.py;
-    let reader =
-        |bytes: &[u8], name: &str| photometry::read_variant(bytes, name, variant, &mut |tilt| asset::beside(py, name, tilt));
+    let reader = |bytes: &[u8], name: &str| photometry::read_variant(bytes, name, variant, &mut |tilt| asset::beside(py, name, tilt));
     match asset::read(py, path, "light distribution", reader) {
         Ok(goniogram) => {
             for warning in &goniogram.warnings {

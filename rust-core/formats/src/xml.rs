@@ -1,11 +1,28 @@
 //! XML of files that nobody vouches for: no document type, so that no entity expands.
 
 use crate::error::{FormatError, Result};
-use crate::photometry::text::{parse, quote};
+use crate::photometry::text::{decode, parse, quote};
 use roxmltree::{Document, Node, ParsingOptions};
+use std::borrow::Cow;
 
 /// More elements than that no such file has; each takes memory several times its text.
 const MOST_NODES: u32 = 1 << 20;
+
+/// The text of a file: UTF-16 with its mark, else what [`decode`] takes.
+///
+/// # Errors
+/// Half a letter of UTF-16, or what [`decode`] refuses.
+pub(crate) fn text_of(bytes: &[u8]) -> Result<Cow<'_, str>> {
+    let word = match bytes {
+        [0xff, 0xfe, ..] => u16::from_le_bytes,
+        [0xfe, 0xff, ..] => u16::from_be_bytes,
+        _ => return decode(bytes),
+    };
+    let (words, rest) = bytes[2..].as_chunks::<2>();
+    let text: std::result::Result<String, _> = char::decode_utf16(words.iter().map(|pair| word(*pair))).collect();
+    let text = text.ok().filter(|_| rest.is_empty()).map(Cow::Owned);
+    text.ok_or_else(|| FormatError::line(1, "text of UTF-16 was found with half a letter in it"))
+}
 
 /// The tree of a text.
 ///

@@ -122,7 +122,8 @@ fn bodies(product: &Gldf<'_>, variant: &Variant) -> Vec<String> {
         lines.push(format!("body: {body}, {height} m high"));
     }
     for file in variant.models.iter().filter_map(|model| product.files.get(*model)) {
-        let content = if file.content_type == "geo/l3d" { product.l3d(variant).map(|bytes| bytes.and_then(|bytes| model(&bytes))) } else { None };
+        let content =
+            if file.content_type == "geo/l3d" { product.l3d(variant).map(|bytes| bytes.and_then(|bytes| model(&bytes))) } else { None };
         let content = match content {
             None => "not read".to_owned(),
             Some(Ok(words)) => words,

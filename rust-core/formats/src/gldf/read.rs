@@ -5,8 +5,8 @@ use super::geometry::{models, mountings, simple_geometries};
 use super::{EmitterUse, FilePlace, Gldf, GldfFile, GldfSpectrum, PRODUCT, SimpleGeometry, Texts, Variant};
 use crate::archive::{Archive, inside, some_of};
 use crate::error::{FormatError, Result};
-use crate::photometry::text::{decode, parse, quote};
-use crate::xml::{LineNumbers, at, attribute, children, content, descend, document, tag, text_at};
+use crate::photometry::text::{parse, quote};
+use crate::xml::{LineNumbers, at, attribute, children, content, descend, document, tag, text_at, text_of};
 use roxmltree::Node;
 use std::collections::HashMap;
 
@@ -29,7 +29,7 @@ impl<'a> Gldf<'a> {
             return Err(FormatError::whole(format!("no {PRODUCT} is in the archive, expected one in a GLDF file; it holds {found}")));
         }
         let product = archive.read(PRODUCT)?;
-        let text = decode(&product).map_err(|error| inside(PRODUCT, &error))?;
+        let text = text_of(&product).map_err(|error| inside(PRODUCT, &error))?;
         product_of(archive, &text).map_err(|error| if error.place.is_some() { inside(PRODUCT, &error) } else { error })
     }
 }

@@ -137,7 +137,9 @@ impl Gldf<'_> {
 
     /// What is wrong with the model's light emitting objects that a variant names, and how they are turned.
     fn object_problems(&self, variant: &Variant) -> Vec<FormatError> {
-        let names: Vec<&str> = variant.emitters.iter().map(|used| used.object.as_str()).filter(|name| !name.is_empty()).collect();
+        let shines = |used: &&EmitterUse| used.emitter.as_ref().is_ok_and(|emitter| !self.emitters[*emitter].lights.is_empty());
+        let names = variant.emitters.iter().filter(shines).map(|used| used.object.as_str());
+        let names: Vec<&str> = names.filter(|name| !name.is_empty()).collect();
         let Some(bytes) = self.l3d(variant).filter(|_| !names.is_empty()) else { return Vec::new() };
         let found = bytes.and_then(|bytes| L3d::read(&bytes).map(|model| model.problems_of(&names)));
         found.unwrap_or_else(|problem| vec![FormatError::whole(format!("the model is not looked at: {problem}"))])
@@ -155,7 +157,11 @@ fn weight(rated: Option<RatedFlux>, part: &Part) -> (f64, Option<String>) {
     let (rated, own, whose) = match (rated, lamps) {
         (None, _) => return (1.0, None),
         // Some state the lamps' flux where the luminaire's belongs.
-        (Some(RatedFlux::Luminaire(rated)), Some(lamps)) if near(rated, lamps) && !near(rated, part.flux) => (rated, lamps, "lamps'"),
+        (Some(RatedFlux::Luminaire(rated)), Some(lamps)) if near(rated, lamps) && !near(rated, part.flux) => {
+            let left = part.flux * rated / lamps;
+            let told = format!("the product's {} lm are those of the lamps here, of which {left:.1} lm leave the luminaire", number(rated));
+            return (rated / lamps, Some(told));
+        }
         (Some(RatedFlux::Luminaire(rated)), _) => (rated, part.flux, "light's"),
         (Some(RatedFlux::Lamps(rated)), Some(lamps)) => (rated, lamps, "lamps'"),
         (Some(RatedFlux::Lamps(rated)), None) => {

@@ -107,9 +107,7 @@ impl L3d<'_> {
         let problem = |name: &&str| match self.lights.iter().find(|light| light.name == **name) {
             None => Some(format!("the model has no light emitting object {}", quote(name))),
             Some(light) if light.place.turn() > TURNED => {
-                let down = light.place.direction([0.0, 0.0, -1.0]).map(|x| number((x * 1e3).round() / 1e3)).join(", ");
-                let what = "the model turns it, so that its nadir points along";
-                Some(format!("light emitting object {}: {what} ({down}); the light stays as measured", quote(name)))
+                Some(format!("the model turns light emitting object {}: {}; the light stays as measured", quote(name), turn(&light.place)))
             }
             Some(_) => None,
         };
@@ -121,4 +119,15 @@ impl L3d<'_> {
         }
         problems.into_iter().map(FormatError::whole).collect()
     }
+}
+
+/// Where a light points that a place turns.
+fn turn(place: &Place) -> String {
+    let rounded = |x: f64| number((x * 1e3).round() / 1e3);
+    let down = place.direction([0.0, 0.0, -1.0]);
+    if down[2] < TURNED - 1.0 {
+        let [x, y, _] = place.direction([1.0, 0.0, 0.0]);
+        return format!("its C0 is at C{}", rounded(y.atan2(x).to_degrees().rem_euclid(360.0)));
+    }
+    format!("its nadir points along ({})", down.map(rounded).join(", "))
 }

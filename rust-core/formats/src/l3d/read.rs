@@ -3,8 +3,8 @@
 use super::{L3d, L3dLight, L3dMesh, L3dPart, L3dShape, Place, STRUCTURE, ShiningFaces};
 use crate::archive::{Archive, inside, some_of};
 use crate::error::{FormatError, Result};
-use crate::photometry::text::{decode, parse, quote};
-use crate::xml::{LineNumbers, at, attribute, children, descend, document, tag, text_at};
+use crate::photometry::text::{parse, quote};
+use crate::xml::{LineNumbers, at, attribute, children, descend, document, tag, text_at, text_of};
 use roxmltree::Node;
 use std::collections::HashMap;
 
@@ -30,7 +30,7 @@ impl<'a> L3d<'a> {
             return Err(FormatError::whole(format!("no {STRUCTURE} is in the archive, expected one in an L3D file; it holds {found}")));
         }
         let structure = archive.read(STRUCTURE)?;
-        let text = decode(&structure).map_err(|error| inside(STRUCTURE, &error))?;
+        let text = text_of(&structure).map_err(|error| inside(STRUCTURE, &error))?;
         model(archive, &text).map_err(|error| inside(STRUCTURE, &error))
     }
 }

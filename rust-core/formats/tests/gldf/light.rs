@@ -76,8 +76,22 @@ fn emitters_add_up() {
     let told = warnings(&both).join("\n");
     assert!(told.contains("the sum of 2 photometries"), "{told}");
     assert!(told.contains("no light emitting object 'absent'"), "{told}");
-    assert!(told.contains("'leo-1': the model turns it"), "{told}");
+    assert!(told.contains("the model turns light emitting object 'leo-1': its nadir points along (0, -1, 0)"), "{told}");
     assert!(!told.contains("'leo-0'"), "{told}");
+}
+
+#[test]
+fn products_may_be_written_in_utf_16() {
+    let text = crate::product(crate::GENERAL, crate::VARIANTS);
+    let words: Vec<u16> = std::iter::once(0xfeff).chain(text.encode_utf16()).collect();
+    let little: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
+    let big: Vec<u8> = words.iter().flat_map(|word| word.to_be_bytes()).collect();
+    for product in [&little, &big] {
+        let bytes = crate::zip::archive(&[("product.xml", product), ("ldc/down.ies", &crate::downlight(1000.0))]);
+        close(read(&bytes, "lamp.gldf#plain").unwrap().flux(), 1000.0, 1e-12);
+    }
+    let half = crate::zip::archive(&[("product.xml", &little[..little.len() - 1])]);
+    assert!(read(&half, "lamp.gldf").unwrap_err().to_string().starts_with("product.xml: line 1: text of UTF-16"));
 }
 
 #[test]
