@@ -34,13 +34,15 @@ const STRUCTURE: &str = r#"<Luminaire><GeometryDefinitions><GeometryFileDefiniti
 <Structure><Geometry partName="b"><Position x="0" y="0" z="1"/><Rotation x="0" y="0" z="90"/><GeometryReference geometryId="a"/>
 <Joints><Joint partName="j"><Position x="2" y="0" z="0"/><DefaultRotation x="0" y="90" z="0"/>
 <Geometries><Geometry partName="h"><GeometryReference geometryId="a"/>
-<LightEmittingObjects><LightEmittingObject partName="l"><Rotation x="0" y="0" z="5"/><Circle diameter="0.1"/></LightEmittingObject></LightEmittingObjects>
+<LightEmittingObjects><LightEmittingObject partName="l"><Rotation x="0" y="0" z="5"/><Circle diameter="0.1"/></LightEmittingObject>
+</LightEmittingObjects>
 <LightEmittingSurfaces><LightEmittingSurface><LightEmittingObjectReference lightEmittingPartName="l"/>
 <FaceAssignments><FaceRangeAssignment faceIndexBegin="5" faceIndexEnd="9"/></FaceAssignments></LightEmittingSurface></LightEmittingSurfaces>
 </Geometry></Geometries></Joint></Joints></Geometry></Structure></Luminaire>"#;
 
 const PRODUCT: &str = r#"<Root><Header><Manufacturer>m</Manufacturer><FormatVersion major="1" minor="0"/></Header><GeneralDefinitions>
-<Files><File id="d" contentType="ldc/ies" type="localFileName">a.ies</File><File id="m" contentType="geo/l3d" type="localFileName">a.l3d</File></Files>
+<Files><File id="d" contentType="ldc/ies" type="localFileName">a.ies</File><File id="m" contentType="geo/l3d" type="localFileName">a.l3d</File>
+</Files>
 <Photometries><Photometry id="p"><PhotometryFileReference fileId="d"/></Photometry></Photometries>
 <Spectrums><Spectrum id="s"><Intensity wavelength="450">0.5</Intensity></Spectrum></Spectrums>
 <LightSources><FixedLightSource id="f"><RatedInputPower>10</RatedInputPower><SpectrumReference spectrumId="s"/></FixedLightSource>
@@ -52,7 +54,8 @@ const PRODUCT: &str = r#"<Root><Header><Manufacturer>m</Manufacturer><FormatVers
 <Geometries><SimpleGeometry id="b"><Cylinder><Diameter>1</Diameter><Height>2</Height></Cylinder></SimpleGeometry>
 <ModelGeometry id="g"><GeometryFileReference fileId="m"/></ModelGeometry></Geometries></GeneralDefinitions>
 <ProductDefinitions><ProductMetaData><Name><Locale language="en">n</Locale></Name></ProductMetaData><Variants>
-<Variant id="1"><Mountings><Ceiling><Pendant pendantLength="5"/></Ceiling></Mountings><Geometry><EmitterReference emitterId="e"/></Geometry></Variant>
+<Variant id="1"><Mountings><Ceiling><Pendant pendantLength="5"/></Ceiling></Mountings><Geometry><EmitterReference emitterId="e"/></Geometry>
+</Variant>
 <Variant id="2"><Geometry><ModelGeometryReference geometryId="g"><EmitterReference emitterId="e">
 <EmitterObjectExternalName>l</EmitterObjectExternalName></EmitterReference></ModelGeometryReference></Geometry></Variant>
 </Variants></ProductDefinitions></Root>"#;

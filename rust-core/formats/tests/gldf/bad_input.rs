@@ -62,18 +62,18 @@ fn sizes_that_lie_are_refused() {
 #[test]
 fn wrong_references_are_told_where_they_stand() {
     for (from, to, expected) in [
-        ("emitterId=\"ed\"", "emitterId=\"no\"", "product.xml: line 45: no emitter 'no' is defined"),
+        ("emitterId=\"ed\"", "emitterId=\"no\"", "product.xml: line 54: no emitter 'no' is defined"),
         (
             "PhotometryReference photometryId=\"pd\"",
             "PhotometryReference photometryId=\"no\"",
-            "product.xml: line 26: no photometry 'no' is defined",
+            "product.xml: line 30: no photometry 'no' is defined",
         ),
         (
             "PhotometryFileReference fileId=\"down\"",
             "PhotometryFileReference fileId=\"no\"",
             "product.xml: line 14: no file 'no' is defined",
         ),
-        ("<PhotometryReference photometryId=\"pd\"/>", "", "product.xml: line 26: <FixedLightEmitter> names no photometry"),
+        ("<PhotometryReference photometryId=\"pd\"/>", "", "product.xml: line 30: <FixedLightEmitter> names no photometry"),
         (">down.ies<", ">gone.ies<", "ldc/gone.ies: is not in the archive"),
         (
             "type=\"localFileName\">down.ies",

@@ -50,31 +50,41 @@ const GENERAL: &str = r#"<Files>
 <Spectrums><Spectrum id="s1"><SpectrumFileReference fileId="power"/></Spectrum>
 <Spectrum id="s2"><Intensity wavelength="450">0.5</Intensity><Intensity wavelength="650">1</Intensity></Spectrum></Spectrums>
 <LightSources>
-<FixedLightSource id="led"><Name><Locale language="en">LED</Locale></Name><RatedInputPower>10</RatedInputPower><SpectrumReference spectrumId="s1"/>
-<ColorInformation><ColorRenderingIndex>90</ColorRenderingIndex><CorrelatedColorTemperature>3000</CorrelatedColorTemperature></ColorInformation></FixedLightSource>
-<ChangeableLightSource id="lamp"><Name><Locale language="en">T5</Locale></Name><RatedInputPower>14</RatedInputPower><RatedLuminousFlux>1200</RatedLuminousFlux></ChangeableLightSource>
+<FixedLightSource id="led"><Name><Locale language="en">LED</Locale></Name><RatedInputPower>10</RatedInputPower>
+<SpectrumReference spectrumId="s1"/>
+<ColorInformation><ColorRenderingIndex>90</ColorRenderingIndex><CorrelatedColorTemperature>3000</CorrelatedColorTemperature>
+</ColorInformation></FixedLightSource>
+<ChangeableLightSource id="lamp"><Name><Locale language="en">T5</Locale></Name><RatedInputPower>14</RatedInputPower>
+<RatedLuminousFlux>1200</RatedLuminousFlux></ChangeableLightSource>
 </LightSources>
-<Equipments><Equipment id="two"><LightSourceReference changeableLightSourceId="lamp" lightSourceCount="2"/><RatedInputPower>31</RatedInputPower></Equipment></Equipments>
+<Equipments><Equipment id="two"><LightSourceReference changeableLightSourceId="lamp" lightSourceCount="2"/>
+<RatedInputPower>31</RatedInputPower></Equipment></Equipments>
 <Emitters>
-<Emitter id="ed"><FixedLightEmitter emergencyBehaviour="Combined"><PhotometryReference photometryId="pd"/><LightSourceReference fixedLightSourceId="led"/>
+<Emitter id="ed"><FixedLightEmitter emergencyBehaviour="Combined"><PhotometryReference photometryId="pd"/>
+<LightSourceReference fixedLightSourceId="led"/>
 <RatedLuminousFlux>1000</RatedLuminousFlux><EmergencyBallastLumenFactor>0.1</EmergencyBallastLumenFactor></FixedLightEmitter></Emitter>
 <Emitter id="eu"><FixedLightEmitter><PhotometryReference photometryId="pu"/><LightSourceReference fixedLightSourceId="led"/>
 <RatedLuminousFlux>600</RatedLuminousFlux></FixedLightEmitter></Emitter>
 <Emitter id="strong"><FixedLightEmitter><PhotometryReference photometryId="pd"/><LightSourceReference fixedLightSourceId="led"/>
 <RatedLuminousFlux>1500</RatedLuminousFlux></FixedLightEmitter>
-<FixedLightEmitter emergencyBehaviour="EmergencyOnly"><PhotometryReference photometryId="pu"/><LightSourceReference fixedLightSourceId="led"/>
+<FixedLightEmitter emergencyBehaviour="EmergencyOnly"><PhotometryReference photometryId="pu"/>
+<LightSourceReference fixedLightSourceId="led"/>
 <RatedLuminousFlux>50</RatedLuminousFlux></FixedLightEmitter></Emitter>
-<Emitter id="tubes"><ChangeableLightEmitter><PhotometryReference photometryId="pd"/><EquipmentReference equipmentId="two"/></ChangeableLightEmitter></Emitter>
+<Emitter id="tubes"><ChangeableLightEmitter><PhotometryReference photometryId="pd"/><EquipmentReference equipmentId="two"/>
+</ChangeableLightEmitter></Emitter>
 <Emitter id="eye"><SensorEmitter><SensorReference sensorId="none"/></SensorEmitter></Emitter>
 </Emitters>
 <Geometries><SimpleGeometry id="box"><Cuboid><Width>300</Width><Length>1200</Length><Height>80</Height></Cuboid>
 <RectangularEmitter><Width>280</Width><Length>1180</Length></RectangularEmitter></SimpleGeometry>
 <ModelGeometry id="mesh"><GeometryFileReference fileId="model"/></ModelGeometry></Geometries>"#;
 
-const VARIANTS: &str = r#"<Variant id="v1"><ProductNumber><Locale language="en">N-1</Locale></ProductNumber><Name><Locale language="en">plain</Locale><Locale language="de">schlicht</Locale></Name>
-<GTIN>12345678</GTIN><Mountings><Ceiling><Pendant pendantLength="500"/><SurfaceMounted/></Ceiling><Wall mountingHeight="1800"><SurfaceMounted/></Wall></Mountings>
+const VARIANTS: &str = r#"<Variant id="v1"><ProductNumber><Locale language="en">N-1</Locale></ProductNumber><Name>
+<Locale language="en">plain</Locale><Locale language="de">schlicht</Locale></Name>
+<GTIN>12345678</GTIN><Mountings><Ceiling><Pendant pendantLength="500"/><SurfaceMounted/></Ceiling><Wall mountingHeight="1800">
+<SurfaceMounted/></Wall></Mountings>
 <Geometry><EmitterReference emitterId="ed"/></Geometry></Variant>
-<Variant id="v2"><Name><Locale language="en">strong</Locale></Name><Geometry><SimpleGeometryReference geometryId="box" emitterId="strong"/></Geometry></Variant>
+<Variant id="v2"><Name><Locale language="en">strong</Locale></Name><Geometry>
+<SimpleGeometryReference geometryId="box" emitterId="strong"/></Geometry></Variant>
 <Variant id="v3"><Name><Locale language="en">both</Locale></Name><Geometry><ModelGeometryReference geometryId="mesh">
 <EmitterReference emitterId="ed"><EmitterObjectExternalName>leo-0</EmitterObjectExternalName></EmitterReference>
 <EmitterReference emitterId="ed"><EmitterObjectExternalName>leo-1</EmitterObjectExternalName></EmitterReference>
@@ -91,12 +101,14 @@ const STRUCTURE: &str = r#"<?xml version="1.0"?>
 <Structure><Geometry partName="base"><Position x="0" y="0" z="1"/><Rotation x="0" y="0" z="90"/><GeometryReference geometryId="cube"/>
 <Joints><Joint partName="j"><Position x="2" y="0" z="0"/><Rotation x="0" y="0" z="0"/><DefaultRotation x="0" y="90" z="0"/>
 <Geometries><Geometry partName="head"><Position x="0" y="0" z="0"/><Rotation x="0" y="0" z="0"/><GeometryReference geometryId="cube"/>
-<LightEmittingObjects><LightEmittingObject partName="leo-1"><Position x="1" y="0" z="0"/><Rotation x="0" y="0" z="0"/><Circle diameter="0.1"/></LightEmittingObject></LightEmittingObjects>
+<LightEmittingObjects><LightEmittingObject partName="leo-1"><Position x="1" y="0" z="0"/><Rotation x="0" y="0" z="0"/>
+<Circle diameter="0.1"/></LightEmittingObject></LightEmittingObjects>
 </Geometry></Geometries></Joint></Joints>
 <LightEmittingObjects><LightEmittingObject partName="leo-0"><Position x="0" y="0" z="-0.1"/><Rotation x="0" y="0" z="-90"/>
 <Rectangle sizeX="0.5" sizeY="0.25"/><LuminousHeights c0="0.01" c90="0" c180="0.01" c270="0"/></LightEmittingObject></LightEmittingObjects>
 <LightEmittingSurfaces><LightEmittingSurface partName="s"><LightEmittingObjectReference lightEmittingPartName="leo-0"/>
-<FaceAssignments><FaceAssignment faceIndex="3"/><FaceRangeAssignment groupIndex="1" faceIndexBegin="5" faceIndexEnd="9"/></FaceAssignments></LightEmittingSurface></LightEmittingSurfaces>
+<FaceAssignments><FaceAssignment faceIndex="3"/><FaceRangeAssignment groupIndex="1" faceIndexBegin="5" faceIndexEnd="9"/>
+</FaceAssignments></LightEmittingSurface></LightEmittingSurfaces>
 </Geometry></Structure></Luminaire>"#;
 
 const MESH: &[u8] = b"v 0 0 0\nv 1000 0 0\nv 1000 1000 0\nf 1 2 3\n";
