@@ -11,7 +11,7 @@ use gonio_formats::{FormatError, photometry};
 use std::{f64::consts::PI, sync::Arc};
 
 /// The attribute that names the variant of a GLDF file.
-pub(crate) const VARIANT: &str = "gonio:photometry:variant";
+const VARIANT: &str = "gonio:photometry:variant";
 
 /// What a light asks of its file.
 #[derive(Clone, Copy, Debug)]

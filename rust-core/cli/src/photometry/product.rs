@@ -12,7 +12,9 @@ pub(super) fn as_text(product: &Gldf<'_>) -> Vec<String> {
     if !product.manufacturer.is_empty() {
         lines.push(format!("manufacturer: {}", product.manufacturer));
     }
-    lines.push(format!("product: {}", named(&product.name, &product.number)));
+    if !product.name.shown().is_empty() {
+        lines.push(format!("product: {}", named(&product.name, &product.number)));
+    }
     let version = if product.version.is_empty() { "of no stated version".to_owned() } else { product.version.clone() };
     lines.push(format!("file: GLDF {version}, {} files, {} variants", product.files.len(), product.variants.len()));
     for (index, variant) in product.variants.iter().enumerate() {
