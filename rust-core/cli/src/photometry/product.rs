@@ -101,7 +101,7 @@ fn light_words(product: &Gldf<'_>, light: &Light) -> String {
 
 /// Makers state whole lumens.
 fn short_flux(flux: f64) -> String {
-    format!("{:.0}", flux)
+    format!("{flux:.0}")
 }
 
 fn emergency_words(light: &Light) -> Option<String> {
