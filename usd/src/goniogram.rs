@@ -1,4 +1,4 @@
-//! IES and EULUMDAT files: of UsdLux's ShapingAPI, literally by its specification, factors on the light's radiance; of `gonio:photometry`, candela.
+//! Luminaires' files: of UsdLux's ShapingAPI, literally by its specification, factors on the light's radiance; of `gonio:photometry`, candela.
 
 use crate::asset;
 use crate::context::Context;
@@ -9,6 +9,9 @@ use gonio::Error;
 use gonio::scene::{Goniogram, Origin, PhotometricType};
 use gonio_formats::{FormatError, photometry};
 use std::{f64::consts::PI, sync::Arc};
+
+/// The attribute that names the variant of a GLDF file.
+const VARIANT: &str = "gonio:photometry:variant";
 
 /// What a light asks of its file.
 #[derive(Clone, Copy, Debug)]
@@ -69,12 +72,13 @@ fn known_or_read<'py>(
     instead: &str,
     make: impl FnOnce(&mut Context<'_, 'py>, &Origin, photometry::Goniogram) -> (photometry::Goniogram, Goniogram),
 ) -> Option<Arc<Goniogram>> {
-    let key = format!("{}\n{}\n{asked}", path.authored, path.resolved);
+    let variant = context.get_authored::<String>(prim, VARIANT).filter(|variant| !variant.is_empty());
+    let key = format!("{}\n{}\n{variant:?}\n{asked}", path.authored, path.resolved);
     if let Some(known) = context.goniograms.get(&key) {
         return known.clone();
     }
     let origin = prim.origin();
-    let read = read(context, path, &origin, instead).map(|found| {
+    let read = read(context, path, variant.as_deref(), &origin, instead).map(|found| {
         let (photometry, goniogram) = make(context, &origin, found);
         let goniogram = Arc::new(goniogram);
         context.luminaires.push(LuminaireFile { path: path.authored.clone(), photometry, goniogram: goniogram.clone() });
@@ -103,9 +107,15 @@ fn or_warn<T>(context: &mut Context<'_, '_>, origin: &Origin, path: &AssetPath, 
     result?.inspect_err(failed).ok()
 }
 
-fn read(context: &mut Context<'_, '_>, path: &AssetPath, origin: &Origin, instead: &str) -> Option<photometry::Goniogram> {
+fn read(
+    context: &mut Context<'_, '_>,
+    path: &AssetPath,
+    variant: Option<&str>,
+    origin: &Origin,
+    instead: &str,
+) -> Option<photometry::Goniogram> {
     let py = context.py;
-    let reader = |bytes: &[u8], name: &str| photometry::read_with(bytes, name, &mut |tilt| asset::beside(py, name, tilt));
+    let reader = |bytes: &[u8], name: &str| photometry::read_variant(bytes, name, variant, &mut |tilt| asset::beside(py, name, tilt));
     match asset::read(py, path, "light distribution", reader) {
         Ok(goniogram) => {
             for warning in &goniogram.warnings {

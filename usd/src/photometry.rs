@@ -139,7 +139,7 @@ fn quantity<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<Lig
 
 /// Reports what mesh lights have no use for.
 pub(crate) fn report_unused_of_mesh<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) {
-    for name in ["file", "opening", "rotation", "lampSet", "tilt"].map(|name| format!("{PREFIX}{name}")) {
+    for name in ["file", "variant", "opening", "rotation", "lampSet", "tilt"].map(|name| format!("{PREFIX}{name}")) {
         if prim.has_authored(&name) {
             context.unsupported(&format!("{name} of mesh lights"), &prim.origin());
         }

@@ -115,7 +115,7 @@ pub(super) enum Command {
     Compare(CompareOptions),
     /// Dim and recolour the light groups of a rendered EXR file.
     Relight(RelightOptions),
-    /// Say what an IES or EULUMDAT file holds: flux, efficacy, beam and field angle, problems; draw and convert it.
+    /// Say what an IES, EULUMDAT, TM-33 or GLDF file holds: flux, efficacy, beam and field angle, problems; draw and convert it.
     Photometry(PhotometryOptions),
     /// Say what a lamp's spectrum means: chromaticity, CCT, Ra, TM-30's Rf and Rg, melanopic DER, lm/W; draw it with the colour vectors.
     ///

@@ -7,8 +7,11 @@ use std::path::PathBuf;
 
 #[derive(Args, Debug)]
 pub(crate) struct PhotometryOptions {
-    /// The luminaire: an IES LM-63 or EULUMDAT file.
+    /// The luminaire: an IES LM-63, EULUMDAT, TM-33 or GLDF file. Of a GLDF file without a variant the variants are listed.
     pub(crate) file: PathBuf,
+    /// The variant of a GLDF file: its name in any language, order number, GTIN or identifier, or its number from 1. FILE.gldf#NAME is the same.
+    #[arg(long, value_name = "NAME|NUMBER")]
+    pub(crate) variant: Option<String>,
     /// For machines.
     #[arg(long)]
     pub(crate) json: bool,

@@ -1,6 +1,8 @@
 //! `gonio photometry`.
 
 mod json;
+mod product;
+mod product_json;
 mod text;
 pub(super) mod ugr;
 
@@ -14,8 +16,9 @@ use super::{
     messages::print,
 };
 use gonio::{Error, Result};
+use gonio_formats::gldf::{self, Gldf, split_variant};
 use gonio_formats::photometry::{
-    Goniogram, PolarUnit, SPACINGS, Symmetry, UgrTable, beside, cone_diagram, ies, ldt, polar_diagram, read_with,
+    Goniogram, PolarUnit, SPACINGS, Symmetry, UgrTable, beside, cone_diagram, ies, ldt, polar_diagram, read_variant,
 };
 use json::as_json;
 use std::path::Path;
@@ -29,7 +32,12 @@ pub(super) fn photometry(options: &PhotometryOptions) -> Result<i32> {
         check_ending(option, path, endings)?;
     }
     check_targets([&options.polar, &options.cone, &options.convert].into_iter().flatten())?;
-    let goniogram = load(options)?;
+    let (path, variant) = chosen(options);
+    let bytes = file::read(path, LONGEST, "luminaire's file")?;
+    if gldf::looks_like(&bytes) && variant.is_none() && !options.ugr_table && outputs(options).next().is_none() {
+        return list(options, path, &bytes);
+    }
+    let goniogram = load(options, path, variant, &bytes)?;
     let figures = goniogram.figures();
     for (option, path, _) in outputs(options) {
         let bytes = match option {
@@ -47,6 +55,26 @@ pub(super) fn photometry(options: &PhotometryOptions) -> Result<i32> {
         ugr::as_text(&goniogram, &table).iter().for_each(|line| print(line));
     } else {
         as_text(&goniogram, &figures, options.front).iter().for_each(|line| print(line));
+    }
+    Ok(0)
+}
+
+/// The file, and the variant of it that was asked for.
+fn chosen(options: &PhotometryOptions) -> (&Path, Option<&str>) {
+    let (path, variant) = options.file.to_str().map_or((options.file.as_path(), None), |path| {
+        let (path, variant) = split_variant(path);
+        (Path::new(path), variant)
+    });
+    (path, options.variant.as_deref().or(variant))
+}
+
+/// Lists the variants of a product.
+fn list(options: &PhotometryOptions, path: &Path, bytes: &[u8]) -> Result<i32> {
+    let product = Gldf::read(bytes).map_err(|error| Error::in_file(path, &error))?;
+    if options.json {
+        print(&product_json::as_json(path, &product).to_string());
+    } else {
+        product::as_text(&product).iter().for_each(|line| print(line));
     }
     Ok(0)
 }
@@ -69,10 +97,9 @@ fn outputs(options: &PhotometryOptions) -> impl Iterator<Item = (&'static str, &
 }
 
 /// The file's goniogram, for the lamps and with the turn that were asked for.
-fn load(options: &PhotometryOptions) -> Result<Goniogram> {
-    let path = &options.file;
-    let bytes = file::read(path, LONGEST, "luminaire's file")?;
-    let mut goniogram = read_with(&bytes, &path.to_string_lossy(), &mut beside(path)).map_err(|error| Error::in_file(path, &error))?;
+fn load(options: &PhotometryOptions, path: &Path, variant: Option<&str>, bytes: &[u8]) -> Result<Goniogram> {
+    let read = read_variant(bytes, &path.to_string_lossy(), variant, &mut beside(path));
+    let mut goniogram = read.map_err(|error| Error::in_file(path, &error))?;
     if let Some(number) = options.lamp_set {
         let chosen = goniogram.with_lamp_set(number as usize - 1);
         goniogram = chosen.map_err(|error| Error::Setting { name: "lamp-set".into(), problem: error.problem })?;

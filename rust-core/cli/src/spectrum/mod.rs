@@ -10,6 +10,10 @@ use super::{
     messages::print,
 };
 use gonio::{Error, Result};
+use gonio_formats::{
+    FormatError,
+    gldf::{self, Gldf, GldfSpectrum},
+};
 use gonio_spectrum::{Figures, NAMES, Spectrum, figures, named, read, spectrum_drawing};
 use serde_json::Value;
 use std::path::Path;
@@ -29,12 +33,13 @@ struct Lamp {
 pub(super) fn spectrum(options: &SpectrumOptions) -> Result<i32> {
     if let Some(path) = &options.output {
         check_ending("output", path, drawing::ENDINGS)?;
-        if options.sources.len() > 1 {
-            return Err(Error::setting("output", format!("one lamp is drawn, {} were named", options.sources.len())));
-        }
+        one_alone(options.sources.len())?;
         check_targets([path])?;
     }
-    let lamps: Vec<Lamp> = options.sources.iter().map(|source| lamp(source)).collect::<Result<_>>()?;
+    let lamps: Vec<Lamp> = options.sources.iter().map(|source| lamps(source)).collect::<Result<Vec<_>>>()?.into_iter().flatten().collect();
+    if options.output.is_some() {
+        one_alone(lamps.len())?;
+    }
     if let (Some(path), [lamp]) = (&options.output, lamps.as_slice()) {
         put(path, &drawing::encoded(spectrum_drawing(&lamp.spectrum, &lamp.figures), path)?)?;
     }
@@ -47,8 +52,13 @@ pub(super) fn spectrum(options: &SpectrumOptions) -> Result<i32> {
     Ok(0)
 }
 
-/// A file's lamp, or where there is no such file the lamp of that name.
-fn lamp(source: &Path) -> Result<Lamp> {
+/// Makes sure that there is one lamp to be drawn.
+fn one_alone(count: usize) -> Result<()> {
+    if count > 1 { Err(Error::setting("output", format!("one lamp is drawn, {count} were named"))) } else { Ok(()) }
+}
+
+/// A file's lamps, or where there is no such file the lamp of that name.
+fn lamps(source: &Path) -> Result<Vec<Lamp>> {
     let asked = source.to_string_lossy().into_owned();
     let spectrum = match named(&asked).filter(|_| !source.exists()) {
         Some(found) => found.map_err(|error| Error::setting(&asked, error.problem))?,
@@ -57,10 +67,34 @@ fn lamp(source: &Path) -> Result<Lamp> {
         }
         None => {
             let bytes = file::read(source, LONGEST, "spectrum's file")?;
+            if gldf::looks_like(&bytes) {
+                return of_product(source, &bytes).map_err(|error| Error::in_file(source, &error));
+            }
             let name = source.file_name().unwrap_or_default().to_string_lossy();
             read(&bytes, &name).map_err(|error| Error::in_file(source, &error))?
         }
     };
+    Ok(vec![lamp(asked, spectrum)])
+}
+
+fn lamp(asked: String, spectrum: Spectrum) -> Lamp {
     let figures = figures(&spectrum);
-    Ok(Lamp { asked, spectrum, figures })
+    Lamp { asked, spectrum, figures }
+}
+
+/// The spectra of a GLDF file, each under its identifier.
+fn of_product(source: &Path, bytes: &[u8]) -> std::result::Result<Vec<Lamp>, FormatError> {
+    let product = Gldf::read(bytes)?;
+    if product.spectra.is_empty() {
+        return Err(FormatError::whole("the product has no spectrum"));
+    }
+    let spectrum = |found: &GldfSpectrum| {
+        let bytes = match found.file {
+            Some(file) => product.file(file)?,
+            None => found.values.iter().map(|(nm, value)| format!("{nm};{value}\n")).collect::<String>().into_bytes(),
+        };
+        let read = read(&bytes, &found.id).map_err(|error| FormatError::whole(format!("spectrum {}: {error}", found.id)))?;
+        Ok(lamp(format!("{}: {}", source.display(), found.id), read))
+    };
+    product.spectra.iter().map(spectrum).collect()
 }

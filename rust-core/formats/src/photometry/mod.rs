@@ -1,6 +1,6 @@
 //! Goniograms: luminous intensity by direction, as luminaires' makers hand it out.
 //!
-//! [`read`] takes IES LM-63 (1986, 1991, 1995, 2002, 2019), EULUMDAT and TM-33 files and gives one [`Goniogram`] in candela and metres;
+//! [`read`] takes IES LM-63 (1986, 1991, 1995, 2002, 2019), EULUMDAT, TM-33 and GLDF files and gives one [`Goniogram`] in candela and metres;
 //! [`ies`], [`ldt`] and [`tm33`] hold the formats' readers and writers, [`measured`] makes goniograms of what was counted,
 //! [`polar_diagram`] and [`cone_diagram`] are the two drawings that lighting people look for.
 //!
@@ -14,7 +14,7 @@ pub mod tm33;
 mod arrange;
 mod axis;
 mod beside;
-mod check;
+pub(crate) mod check;
 mod cone;
 mod convert;
 mod direct_ratio;
@@ -27,6 +27,7 @@ mod modify;
 mod opening;
 mod plausible;
 mod polar;
+mod sum;
 mod symmetry;
 pub(crate) mod text;
 mod ugr;
@@ -43,8 +44,11 @@ pub use ugr::{CATALOGUE_SPACING, NoIndex, REFLECTANCES, ROOMS, SPACINGS, UgrTabl
 pub use zones::{Bug, Zones};
 
 use crate::error::{FormatError, Result};
+use crate::gldf::{self, Gldf};
+use crate::tame;
 
-/// Reads an IES, EULUMDAT or TM-33 file; its content decides, and where that is not clear the ending of `name`.
+/// Reads an IES, EULUMDAT, TM-33 or GLDF file; its content decides, and where that is not clear the ending of `name`. Of a GLDF file the variant
+/// is read that stands after the name (`lamp.gldf#wide`), else the first.
 ///
 /// # Errors
 /// What the format's own reader says, or that the bytes are neither.
@@ -57,6 +61,33 @@ pub fn read(bytes: &[u8], name: &str) -> Result<Goniogram> {
 /// # Errors
 /// As [`read`].
 pub fn read_with(bytes: &[u8], name: &str, beside: &mut Beside<'_>) -> Result<Goniogram> {
+    read_variant(bytes, name, gldf::split_variant(name).1, beside)
+}
+
+/// The same, for a variant that is named apart ([`Gldf::variant`] says how); without one the first.
+///
+/// # Errors
+/// As [`read`], or a variant of what is no GLDF file.
+pub fn read_variant(bytes: &[u8], name: &str, asked: Option<&str>, beside: &mut Beside<'_>) -> Result<Goniogram> {
+    if !gldf::looks_like(bytes) {
+        return match asked {
+            None => read_single(bytes, name, beside),
+            Some(_) => Err(FormatError::whole("a variant was asked for, but the file is no GLDF archive")),
+        };
+    }
+    let product = Gldf::read(bytes)?;
+    let chosen = product.variant(asked)?;
+    let mut found = product.goniogram(&product.variants[chosen])?;
+    if asked.is_none() && product.variants.len() > 1 {
+        let name = tame(product.variants[chosen].name.shown());
+        let told = format!("the first of {} variants is taken, '{name}'", product.variants.len());
+        found.warnings.insert(0, FormatError::whole(told));
+    }
+    Ok(found)
+}
+
+/// Reads a file that is no archive.
+pub(crate) fn read_single(bytes: &[u8], name: &str, beside: &mut Beside<'_>) -> Result<Goniogram> {
     let ending = name.rsplit('.').next().unwrap_or_default().to_ascii_lowercase();
     if tm33::looks_like(bytes) {
         tm33::read(bytes)

@@ -8,10 +8,8 @@ use crate::photometry::check::Least;
 use crate::photometry::grid::{SAME, sorted};
 use crate::photometry::text::{LARGEST, decode, number, parse, quote};
 use crate::photometry::{Goniogram, HeaderLine, LampSet, Opening, OpeningShape, PhotometricType, Stated};
-use roxmltree::{Document, Node, ParsingOptions};
-
-/// More elements than that no such file has; each takes memory several times its text.
-const MOST_NODES: u32 = 1 << 20;
+use crate::xml::{at, children, content, descend, document, line, value_at};
+use roxmltree::Node;
 
 /// The head's elements and the keywords that they become.
 const TEXTS: [(&str, &str); 7] = [
@@ -33,9 +31,7 @@ const LONGEST: f64 = 20.0;
 /// What is no XML or has another root, no intensities, or none on a whole grid of angles.
 pub fn read(bytes: &[u8]) -> Result<Goniogram> {
     let text = decode(bytes)?;
-    let options = ParsingOptions { allow_dtd: false, nodes_limit: MOST_NODES, ..ParsingOptions::default() };
-    let document = Document::parse_with_options(&text, options)
-        .map_err(|error| FormatError::line(error.pos().row.into(), format!("not XML: {error}")))?;
+    let document = document(&text)?;
     let root = document.root_element();
     if !root.tag_name().name().starts_with(ROOT) {
         return Err(at(root, format!("<{}> was found, expected a root whose name begins with {ROOT}", quote(root.tag_name().name()))));
@@ -182,28 +178,5 @@ fn lengths<const N: usize>(node: Option<Node<'_, '_>>, names: [&str; N]) -> Opti
 }
 
 fn value(node: Node<'_, '_>, name: &str) -> Option<f64> {
-    descend(node, &[name]).and_then(|node| parse(content(node)))
-}
-
-fn children<'a, 'input>(node: Node<'a, 'input>, name: &'static str) -> impl Iterator<Item = Node<'a, 'input>> {
-    node.children().filter(move |child| child.tag_name().name() == name)
-}
-
-/// The first node along a path of names.
-fn descend<'a, 'input>(node: Node<'a, 'input>, path: &[&str]) -> Option<Node<'a, 'input>> {
-    path.iter().try_fold(node, |node, name| node.children().find(|child| child.tag_name().name() == *name))
-}
-
-/// A node's text without the white space around it.
-fn content<'a>(node: Node<'a, '_>) -> &'a str {
-    node.text().unwrap_or("").trim()
-}
-
-fn line(node: Node<'_, '_>) -> u64 {
-    node.document().text_pos_at(node.range().start).row.into()
-}
-
-/// A problem at a node.
-fn at(node: Node<'_, '_>, problem: String) -> FormatError {
-    FormatError::line(line(node), problem)
+    value_at(node, &[name])
 }
