@@ -36,7 +36,7 @@ fn lines_with(folder: &str, needle: &str) -> Vec<String> {
 }
 
 /// Crates of the engine from the ground up, and which others of gonio each may use.
-const CRATES: [(&str, &[&str]); 18] = [
+const CRATES: [(&str, &[&str]); 19] = [
     ("simd", &[]),
     ("formats", &[]),
     ("spectrum", &["formats"]),
@@ -45,6 +45,7 @@ const CRATES: [(&str, &[&str]); 18] = [
     ("road", &["formats"]),
     ("sky", &[]),
     ("annual", &["formats", "sky"]),
+    ("dimming", &[]),
     ("accel", &["simd"]),
     ("image", &["simd"]),
     ("table", &["simd"]),
