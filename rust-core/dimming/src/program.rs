@@ -7,8 +7,10 @@ use crate::{
 };
 use microlp::{ComparisonOp, LinearExpr, OptimizationDirection, Variable};
 
-/// What an earlier goal may give way for a later one, relative: what the solver's own tolerance is.
-const SLACK: f64 = 1e-7;
+/// What an earlier goal may give way for a later one: less than the solver's tolerance, so that there is room for its rounding and for nothing else.
+const SLACK: f64 = 1e-9;
+/// What a level may be off the end of its range to count as on it: the solver's tolerance.
+const SNAP: f64 = 1e-7;
 
 /// A goal: the least sum of variables times factors.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -118,8 +120,8 @@ impl<'a> Program<'a> {
 /// A level within its range, and on its end where it is as good as there.
 fn snapped(level: f64, [least, most]: [f64; 2]) -> f64 {
     match level {
-        x if x <= least + SLACK => least,
-        x if x >= most - SLACK => most,
+        x if x <= least + SNAP => least,
+        x if x >= most - SNAP => most,
         x => x,
     }
 }
