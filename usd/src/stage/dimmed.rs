@@ -52,7 +52,8 @@ impl Stage {
         layer.getattr("subLayerPaths")?.call_method1("append", (relative(py, &self.path, output)?,))?;
         for (path, factor) in lights {
             let prim = Prim::new(stage.call_method1("GetPrimAtPath", (path,))?);
-            if !prim.is_valid() || prim.object().call_method0("IsInstanceProxy")?.is_truthy()? {
+            let is = |method: &str| prim.object().call_method0(method)?.is_truthy();
+            if !prim.is_valid() || is("IsInstanceProxy")? || is("IsInPrototype")? {
                 *unreached = Some(path.clone());
                 return Ok(String::new());
             }

@@ -13,7 +13,7 @@ pub(super) const DIM_EXAMPLES: &str = "Targets, NAME being a prim, the last part
   NAME.min>=200       no point gets less
   NAME.max<=1000      no point gets more
   NAME.uo>=0.6        the least point has 0.6 of the mean at least
-Of glare (--quantity ugr) targets are checked once the levels are known.
+Glare, where the stage's own meters and grids ask for ugr, is checked once the levels are known: NAME.max<=19.
 
 Examples:
   gonio dim office.usda --grid /Office/Floor --height 0.75 --target 'Floor.mean>=500' --target 'Floor.uo>=0.6'

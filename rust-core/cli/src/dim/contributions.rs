@@ -8,7 +8,7 @@ use crate::{
     progress::Reporter,
 };
 use gonio::{
-    Error, Result,
+    Diagnostic, Error, Result,
     compile::{CompiledScene, compile},
     measure::{Measurements, Reading},
     scene::{Measurand, Scene},
@@ -21,16 +21,23 @@ struct Run<'a> {
     options: &'a MeasuringArguments,
     compiled: CompiledScene,
     interrupted: &'a AtomicBool,
+    told: Vec<Diagnostic>,
 }
 
 impl Run<'_> {
-    /// The readings of all points that the scene measures, meters first, each by name.
-    fn readings(&self, scene: &Scene, is_first: bool) -> Result<Vec<(String, Vec<Reading>)>> {
+    /// The readings of all points that the scene measures, meters first, each by name, and what is not as asked for.
+    fn readings(&self, scene: &Scene) -> Result<(Vec<(String, Vec<Reading>)>, Vec<Diagnostic>)> {
         let found = evaluated(scene, Some(&self.compiled), Reporter::new(self.options.quiet), self.interrupted)?;
-        if is_first && !self.options.quiet {
-            list(&found.diagnostics, most_warnings(self.options));
+        Ok((by_name(&found), found.diagnostics))
+    }
+
+    /// Lists what was not told before.
+    fn tell(&mut self, diagnostics: Vec<Diagnostic>) {
+        let new: Vec<Diagnostic> = diagnostics.into_iter().filter(|one| !self.told.contains(one)).collect();
+        if !self.options.quiet {
+            list(&new, most_warnings(self.options));
         }
-        Ok(by_name(&found))
+        self.told.extend(new);
     }
 }
 
@@ -54,18 +61,22 @@ pub(super) fn measured(
     let mut only = scene.clone();
     only.meters.retain(|meter| meter.measurand != Measurand::Ugr && asked.names_light(&meter.origin.name));
     only.grids.retain(|grid| grid.measurand != Measurand::Ugr && asked.names_light(&grid.origin.name));
-    let run = Run { options, compiled: compile(&only, None, interrupted)?, interrupted };
+    let mut run = Run { options, compiled: compile(&only, None, interrupted)?, interrupted, told: Vec::new() };
+    run.tell(run.compiled.diagnostics.clone());
     let strengths: Vec<f32> = only.lights.iter().map(|light| light.dimming).collect();
     for light in groups.iter().flat_map(|group| &group.lights) {
         only.lights[*light].dimming = 0.0;
     }
-    let fixed = run.readings(&only, true)?;
+    // A scene whose lamps are out has other things to be told than the one that was asked for.
+    let (fixed, _) = run.readings(&only)?;
     put_out(&mut only);
     let mut of_groups = Vec::new();
     for group in groups {
         only.settings.seed = only.settings.seed.wrapping_add(1);
         group.lights.iter().for_each(|light| only.lights[*light].dimming = strengths[*light]);
-        of_groups.push(run.readings(&only, false)?);
+        let (readings, diagnostics) = run.readings(&only)?;
+        run.tell(diagnostics);
+        of_groups.push(readings);
         group.lights.iter().for_each(|light| only.lights[*light].dimming = 0.0);
     }
     fixed.into_iter().enumerate().map(|(number, (name, fixed))| area(name, &fixed, number, &of_groups)).collect()

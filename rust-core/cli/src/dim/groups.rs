@@ -59,6 +59,7 @@ impl LightGroup {
             let belongs = |light: &Light| light.group == *name && !light.portal;
             let lights: Vec<usize> = (0..loaded.scene.lights.len()).filter(|k| belongs(&loaded.scene.lights[*k])).collect();
             let mut prims: Vec<String> = lights.iter().map(|k| loaded.scene.lights[*k].origin.name.to_string()).collect();
+            prims.sort();
             prims.dedup();
             let (watts, source) = of(&watts, name).map_or_else(|| power(loaded, &lights, &fluxes), |watts| (watts, PowerSource::Option));
             if source == PowerSource::Flux {
