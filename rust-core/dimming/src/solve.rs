@@ -26,8 +26,8 @@ impl Solution {
 }
 
 impl Problem {
-    /// The levels that serve the goal best among those that meet the targets. Where none do, they miss them by the least sum of relative shortfalls. The same
-    /// problem has the same answer always.
+    /// The levels that serve the goal best among those that meet the targets. Where none do, they miss them by the least sum of relative shortfalls.
+    /// The same problem has the same answer always.
     ///
     /// # Errors
     /// Numbers out of their range, targets that name no area, and a solver that gives up.

@@ -34,8 +34,8 @@ pub struct Target {
 const EXPECTED: &str = "expected NAME.mean>=LX, NAME.mean<=LX, NAME.mean=LX+-TOLERANCE, NAME.min>=LX, NAME.max<=LX or NAME.uo>=SHARE";
 
 impl Target {
-    /// Reads `NAME.mean>=500`, `NAME.mean<=800`, `NAME.mean=500+-25`, `NAME.min>=200`, `NAME.max<=1000` or `NAME.uo>=0.6`; of a name without a figure the
-    /// mean is meant, which is a meter's reading. `±` does for `+-`.
+    /// Reads `NAME.mean>=500`, `NAME.mean<=800`, `NAME.mean=500+-25`, `NAME.min>=200`, `NAME.max<=1000` or `NAME.uo>=0.6`; of a name without a figure
+    /// the mean is meant, which is a meter's reading. `±` does for `+-`.
     ///
     /// # Errors
     /// Other texts, numbers that are none or below 0, and limits that no linear program knows, such as a greatest value that is at least so much.

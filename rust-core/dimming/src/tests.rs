@@ -40,7 +40,8 @@ fn the_group_of_most_light_a_watt_comes_first() {
 
 #[test]
 fn uniformity_is_linear_in_levels() {
-    // Points get (4 a + b, a + 4 b) · 100, a costs less. min ≥ 0.8 mean: a + 4 b ≥ 2 (a + b), so b = a / 2; mean = 250 (a + b) = 300: a = 0.8, b = 0.4.
+    // Points get (4 a + b, a + 4 b) · 100, a costs less. min ≥ 0.8 mean: a + 4 b ≥ 2 (a + b), so b = a / 2; mean = 250 (a + b) = 300: a = 0.8,
+    // b = 0.4.
     let points: [&[f64]; 2] = [&[400.0, 100.0, 0.0], &[100.0, 400.0, 0.0]];
     let found = problem(&[10.0, 20.0], &points, &["Plane.mean>=300", "Plane.uo>=0.8"]).solve().expect("a dimming");
     close(&found.levels, &[0.8, 0.4]);
@@ -52,10 +53,11 @@ fn the_least_and_the_greatest_point_are_limited() {
     let points: [&[f64]; 2] = [&[400.0, 100.0, 0.0], &[100.0, 400.0, 0.0]];
     // 100 a + 400 b ≥ 250 and 400 a + 100 b ≥ 250: a = b = 0.5.
     close(&problem(&[10.0, 10.0], &points, &["Plane.min>=250"]).solve().expect("a dimming").levels, &[0.5, 0.5]);
-    // The greatest point allows 400 a + 100 b ≤ 220; b = (220 − 400 a) / 100 ≤ 1 wants a ≥ 0.3; the mean 250 (a + b) = 300 then a = 1/3·(…): a + b = 1.2, 300 a = 100.
+    // A mean of 250 (a + b) = 300 wants a + b = 1.2.
     let found = problem(&[10.0, 1.0], &points, &["Plane.mean>=300", "Plane.max<=440"]).solve().expect("a dimming");
-    // Cheap b alone is too bright: 100 a + 400 b ≤ 440, a + b = 1.2: b = 320 / 300 > 1, so b = 1 and a = 0.2.
+    // 100 a + 400 b ≤ 440 leaves b ≤ 320 / 300, so that b = 1 is its own limit.
     close(&found.levels, &[0.2, 1.0]);
+    // 100 a + 400 b ≤ 390 leaves b ≤ 0.9.
     let found = problem(&[10.0, 1.0], &points, &["Plane.mean>=300", "Plane.max<=390"]).solve().expect("a dimming");
     close(&found.levels, &[0.3, 0.9]);
 }

@@ -15,8 +15,8 @@ const DIMMING: &str = "gonio:photometry:dimming";
 const OWN_TO_LAYERS: [&str; 4] = ["subLayers", "subLayerOffsets", "documentation", "comment"];
 
 impl Stage {
-    /// The text of a USD layer with the stage's root as its sublayer, in which `gonio:photometry:dimming` of these lights, each with its prim's path, is what it
-    /// is at a time, times a factor. `output` is where the text is to stand.
+    /// The text of a USD layer with the stage's root as its sublayer, in which `gonio:photometry:dimming` of these lights, each with its prim's path,
+    /// is what it is at a time, times a factor. `output` is where the text is to stand.
     ///
     /// # Errors
     /// A light that no opinion reaches, as it is within an instance; an output that is the stage itself; what `pxr` says.

@@ -50,7 +50,8 @@ fn by_name(found: &Measurements) -> Vec<(String, Vec<Reading>)> {
     meters.chain(grids).collect()
 }
 
-/// What the points that targets of light name get of each group and of all other light. Runs have seeds of their own, so that their errors are independent.
+/// What the points that targets of light name get of each group and of all other light. Runs have seeds of their own, so that their errors are
+/// independent.
 pub(super) fn measured(
     options: &MeasuringArguments,
     scene: &mut Scene,

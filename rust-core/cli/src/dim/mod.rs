@@ -13,7 +13,7 @@ use super::{
 };
 use asked::Asked;
 use gonio::{Error, Result};
-use gonio_dimming::{DimmingError, Problem, Solution, Verdict};
+use gonio_dimming::{DimmingError, Problem, Solution};
 use gonio_usd::{Loaded, SampleTime, Stage};
 use groups::LightGroup;
 use pyo3::prelude::*;
@@ -36,8 +36,7 @@ pub(super) fn dim(py: Python<'_>, options: &DimOptions, interrupted: &'static At
         put(output, stage.dimmed(py, &factors, time, output)?.as_bytes())?;
     }
     show(options, &problem, &lamps, &solution);
-    let is_missed = solution.targets.iter().any(|target| target.verdict == Verdict::NotMet);
-    Ok(i32::from(is_missed))
+    Ok(i32::from(!solution.meets_all()))
 }
 
 /// What was measured of the groups, and the levels found; glare is rated at these.
