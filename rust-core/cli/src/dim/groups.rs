@@ -100,7 +100,7 @@ fn power(loaded: &Loaded, lights: &[usize], fluxes: &[Option<f64>]) -> (f64, Pow
     };
     let mut source = PowerSource::Files;
     let mut watts = 0.0;
-    for k in lights {
+    for k in lights.iter().filter(|k| !loaded.scene.lights[**k].shape.is_at_infinity()) {
         watts += stated(k).unwrap_or_else(|| {
             source = PowerSource::Flux;
             fluxes.get(*k).copied().flatten().unwrap_or(0.0) / LUMENS_PER_WATT
