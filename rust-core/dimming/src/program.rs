@@ -9,8 +9,8 @@ use microlp::{ComparisonOp, LinearExpr, OptimizationDirection, Variable};
 
 /// What an earlier goal may give way for a later one: less than the solver's tolerance, so that there is room for its rounding and for nothing else.
 const SLACK: f64 = 1e-9;
-/// What a level may be off the end of its range to count as on it: the solver's tolerance.
-const SNAP: f64 = 1e-7;
+/// What a level may be off the end of its range to count as on it: finer than any dimmer, and coarser than the solver's tolerance.
+const SNAP: f64 = 1e-6;
 
 /// A goal: the least sum of variables times factors.
 #[derive(Clone, Copy, Debug, PartialEq)]
