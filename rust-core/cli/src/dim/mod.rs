@@ -14,7 +14,7 @@ use super::{
 use asked::Asked;
 use gonio::{Error, Result};
 use gonio_dimming::{DimmingError, Problem, Solution};
-use gonio_usd::{Loaded, SampleTime, Stage};
+use gonio_usd::{Loaded, SampleTime};
 use groups::LightGroup;
 use pyo3::prelude::*;
 use std::sync::atomic::AtomicBool;
