@@ -16,6 +16,9 @@ use gonio::{
 use gonio_dimming::{Area, Estimate, Point, Problem, Reached};
 use std::sync::atomic::AtomicBool;
 
+/// The readings of what is measured, by its name.
+type Named = (String, Vec<Reading>);
+
 /// What a measurement takes beside the scene.
 struct Run<'a> {
     options: &'a MeasuringArguments,
@@ -26,7 +29,7 @@ struct Run<'a> {
 
 impl Run<'_> {
     /// The readings of all points that the scene measures, meters first, each by name, and what is not as asked for.
-    fn readings(&self, scene: &Scene) -> Result<(Vec<(String, Vec<Reading>)>, Vec<Diagnostic>)> {
+    fn readings(&self, scene: &Scene) -> Result<(Vec<Named>, Vec<Diagnostic>)> {
         let found = evaluated(scene, Some(&self.compiled), Reporter::new(self.options.quiet), self.interrupted)?;
         Ok((by_name(&found), found.diagnostics))
     }
@@ -41,7 +44,7 @@ impl Run<'_> {
     }
 }
 
-fn by_name(found: &Measurements) -> Vec<(String, Vec<Reading>)> {
+fn by_name(found: &Measurements) -> Vec<Named> {
     let meters = found.meters.iter().map(|meter| (meter.meter.origin.name.to_string(), vec![meter.reading]));
     let grids = found.grids.iter().map(|grid| {
         let readings = grid.points.iter().flatten().map(|(_, reading)| *reading).collect();
@@ -99,9 +102,8 @@ fn put_out(scene: &mut Scene) {
 }
 
 /// An area's points, those left out that have no figure in one of the runs.
-fn area(name: String, fixed: &[Reading], number: usize, of_groups: &[Vec<(String, Vec<Reading>)>]) -> Result<Area> {
-    let reading =
-        |group: &Vec<(String, Vec<Reading>)>, point: usize| group.get(number).and_then(|(_, readings)| readings.get(point)).copied();
+fn area(name: String, fixed: &[Reading], number: usize, of_groups: &[Vec<Named>]) -> Result<Area> {
+    let reading = |group: &Vec<Named>, point: usize| group.get(number).and_then(|(_, readings)| readings.get(point)).copied();
     let point = |(point, fixed): (usize, &Reading)| {
         let of_groups = of_groups.iter().map(|group| reading(group, point)).collect::<Option<Vec<_>>>()?;
         let is_known = fixed.is_known() && of_groups.iter().all(Reading::is_known);
@@ -138,7 +140,7 @@ pub(super) fn glare(
         lights.iter().for_each(|light| scene.lights[*light].dimming *= *level as f32);
     }
     let found = evaluated(scene, None, Reporter::new(options.quiet), interrupted)?;
-    let area = |(name, readings): (String, Vec<Reading>)| Area {
+    let area = |(name, readings): Named| Area {
         name,
         points: readings.iter().map(|reading| Point { fixed: estimate(reading), of_groups: Vec::new() }).collect(),
     };
