@@ -32,7 +32,7 @@ pub(super) fn measure(py: Python<'_>, options: &MeasureOptions, interrupted: &'s
         path.iter().try_for_each(|path| check_ending(option, path, &[ending]))?;
     }
     check_targets(options.output.iter().chain(&options.csv))?;
-    let (_, loaded) = loaded(py, &options.measuring, interrupted)?;
+    let (_stage, loaded) = loaded(py, &options.measuring, interrupted)?;
     py.detach(|| run(options, loaded, interrupted))
 }
 
