@@ -36,7 +36,7 @@ fn lines_with(folder: &str, needle: &str) -> Vec<String> {
 }
 
 /// Crates of the engine from the ground up, and which others of gonio each may use.
-const CRATES: [(&str, &[&str]); 19] = [
+const CRATES: [(&str, &[&str]); 20] = [
     ("simd", &[]),
     ("formats", &[]),
     ("spectrum", &["formats"]),
@@ -46,6 +46,7 @@ const CRATES: [(&str, &[&str]); 19] = [
     ("sky", &[]),
     ("annual", &["formats", "simd", "sky"]),
     ("share", &[]),
+    ("dimming", &[]),
     ("accel", &["simd"]),
     ("image", &["simd"]),
     ("table", &["simd"]),

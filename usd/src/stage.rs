@@ -1,6 +1,7 @@
 //! Opening stages and reading them into scenes.
 
 mod clips;
+mod dimmed;
 mod faces;
 mod grid;
 mod info;

@@ -12,6 +12,7 @@ mod compare;
 mod completion;
 mod daylight;
 mod denoise;
+mod dim;
 mod drawing;
 mod explain;
 mod falsecolor;
@@ -105,6 +106,7 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
         Command::Spectrum(options) => spectrum::spectrum(&options),
         Command::Bsdf(options) => bsdf::bsdf(py, &options, &INTERRUPTED),
         Command::Measure(options) => measure::measure(py, &options, &INTERRUPTED),
+        Command::Dim(options) => dim::dim(py, &options, &INTERRUPTED),
         Command::Goniometer(options) => goniometer::goniometer(py, &options, &INTERRUPTED),
         Command::Map(options) => map::map(py, &options, &INTERRUPTED),
         Command::Falsecolor(options) => py.detach(|| falsecolor::falsecolor(&options)),

@@ -1,7 +1,7 @@
 //! `gonio measure`.
 
 use super::{
-    arguments::{GridArguments, MeasureOptions},
+    arguments::{GridArguments, MeasureOptions, MeasuringArguments},
     daylight, falsecolor,
     file::{check_ending, check_targets, print_path, put},
     glare::coverage_json,
@@ -32,6 +32,12 @@ pub(super) fn measure(py: Python<'_>, options: &MeasureOptions, interrupted: &'s
         path.iter().try_for_each(|path| check_ending(option, path, &[ending]))?;
     }
     check_targets(options.output.iter().chain(&options.csv))?;
+    let (_stage, loaded) = loaded(py, &options.measuring, interrupted)?;
+    py.detach(|| run(options, loaded, interrupted))
+}
+
+/// The stage with the meters and grids that are asked for, daylight and settings, once what is doubtful of it is told.
+pub(super) fn loaded(py: Python<'_>, options: &MeasuringArguments, interrupted: &'static AtomicBool) -> Result<(Stage, Loaded)> {
     let measurand = options.quantity.as_deref().map(measurand).transpose()?;
     let mut stage_options = stage_options(&options.stage)?;
     stage_options.time = options.frame.map_or(SampleTime::Start, SampleTime::Code);
@@ -45,7 +51,21 @@ pub(super) fn measure(py: Python<'_>, options: &MeasureOptions, interrupted: &'s
         loaded.scene.grids.retain(|grid| options.grids.grid.iter().any(|prim| *prim == *grid.origin.name));
     }
     loaded.scene.meters.extend(points);
-    py.detach(|| run(options, loaded, interrupted))
+    daylight::add(&options.daylight, &mut loaded, options.stage.strict, options.quiet)?;
+    if !options.quiet {
+        list(&loaded.diagnostics, most_warnings(options));
+    }
+    apply_settings(options, &mut loaded.scene);
+    if loaded.scene.meters.is_empty() && loaded.scene.grids.is_empty() {
+        let problem = "the stage has no gonio:grid or gonio:meter; name a surface with --grid /Prim or a point with --at X,Y,Z";
+        return Err(Error::setting("grid", problem));
+    }
+    Ok((stage, loaded))
+}
+
+/// How many warnings are listed.
+pub(super) fn most_warnings(options: &MeasuringArguments) -> usize {
+    if options.stage.verbose { usize::MAX } else { MOST_WARNINGS }
 }
 
 fn measurand(name: &str) -> Result<Measurand> {
@@ -61,22 +81,11 @@ pub(super) fn author_grids(py: Python<'_>, stage: &Stage, grids: &GridArguments,
     grids.grid.iter().try_for_each(|prim| stage.author_grid(py, prim, measurand.map(Measurand::name), lengths))
 }
 
-fn run(options: &MeasureOptions, mut loaded: Loaded, interrupted: &'static AtomicBool) -> Result<i32> {
-    let most = if options.stage.verbose { usize::MAX } else { MOST_WARNINGS };
-    daylight::add(&options.daylight, &mut loaded, options.stage.strict, options.quiet)?;
-    if !options.quiet {
-        list(&loaded.diagnostics, most);
-    }
-    apply_settings(options, &mut loaded.scene);
-    let scene = &loaded.scene;
-    if scene.meters.is_empty() && scene.grids.is_empty() {
-        let problem = "the stage has no gonio:grid or gonio:meter; name a surface with --grid /Prim or a point with --at X,Y,Z";
-        return Err(Error::setting("grid", problem));
-    }
-    let reporter = Reporter::new(options.quiet);
-    let found = evaluated(scene, None, reporter, interrupted)?;
-    if !options.quiet {
-        list(&found.diagnostics, most);
+fn run(options: &MeasureOptions, loaded: Loaded, interrupted: &'static AtomicBool) -> Result<i32> {
+    let measuring = &options.measuring;
+    let found = evaluated(&loaded.scene, None, Reporter::new(measuring.quiet), interrupted)?;
+    if !measuring.quiet {
+        list(&found.diagnostics, most_warnings(measuring));
     }
     if let Some(path) = &options.csv {
         put(path, csv(&found).as_bytes())?;
@@ -84,7 +93,7 @@ fn run(options: &MeasureOptions, mut loaded: Loaded, interrupted: &'static Atomi
     if let Some(path) = &options.output {
         draw(options, &found, path)?;
     }
-    if options.json {
+    if measuring.json {
         print(&as_json(&found).to_string());
     } else {
         found.meters.iter().for_each(|meter| print(&meter_line(meter)));
@@ -110,7 +119,7 @@ pub(super) fn evaluated(
     found
 }
 
-fn apply_settings(options: &MeasureOptions, scene: &mut Scene) {
+fn apply_settings(options: &MeasuringArguments, scene: &mut Scene) {
     let settings = &mut scene.settings;
     settings.samples = options.spp;
     settings.max_bounces = options.max_bounces.unwrap_or(MOST_BOUNCES);
@@ -120,7 +129,7 @@ fn apply_settings(options: &MeasureOptions, scene: &mut Scene) {
 }
 
 /// The meters of `--at`.
-fn points(options: &MeasureOptions, measurand: Measurand, axis: UpAxis) -> Result<Vec<Meter>> {
+fn points(options: &MeasuringArguments, measurand: Measurand, axis: UpAxis) -> Result<Vec<Meter>> {
     let [up, ahead] = gonio_usd::meter::axes(axis);
     let direction = |name: &str, text: &Option<String>, otherwise| text.as_ref().map_or(Ok(otherwise), |text| triple(name, text));
     let (normal, facing) = (direction("normal", &options.normal, up)?, direction("facing", &options.facing, ahead)?);
@@ -152,7 +161,7 @@ fn draw(options: &MeasureOptions, found: &Measurements, path: &Path) -> Result<(
         };
         let path = if found.grids.len() == 1 { path.to_owned() } else { named(path, grid, number) };
         falsecolor::write(&path, &value_picture(grid, &style))?;
-        if !options.quiet && !options.json {
+        if !options.measuring.quiet && !options.measuring.json {
             print_path(&path);
         }
     }

@@ -1,4 +1,4 @@
-//! What `gonio measure` takes, and the grids that it shares with `gonio report`.
+//! What `gonio measure` takes; it shares most with `gonio dim`, and grids with `gonio report`.
 
 use super::number::{count, finite};
 use super::{DaylightArguments, IntegratorArgument, ScaleArguments, StageArguments, TextureArguments, WorkArguments};
@@ -29,8 +29,9 @@ pub(crate) struct GridArguments {
     pub(crate) height: Option<f64>,
 }
 
+/// What is measured, where and how: what `gonio measure` and `gonio dim` share.
 #[derive(Args, Debug)]
-pub(crate) struct MeasureOptions {
+pub(crate) struct MeasuringArguments {
     #[command(flatten)]
     pub(crate) stage: StageArguments,
     /// The frame to measure.
@@ -50,17 +51,9 @@ pub(crate) struct MeasureOptions {
     /// What these grids and points measure: illuminance, cylindrical, semicylindrical (lx), daylight-factor (%), luminance (cd/m²), ugr (the luminaires' glare at an eye there); without it as the grid's prim says, else illuminance.
     #[arg(long, value_name = "QUANTITY")]
     pub(crate) quantity: Option<String>,
-    /// Draw the grid in false colour with its values; with several grids the prim's name is put before the ending.
-    #[arg(long, short = 'o', value_name = "FILE.png")]
-    pub(crate) output: Option<PathBuf>,
-    /// Write every point with its value and standard error.
-    #[arg(long, value_name = "FILE.csv")]
-    pub(crate) csv: Option<PathBuf>,
     /// For machines.
     #[arg(long)]
     pub(crate) json: bool,
-    #[command(flatten)]
-    pub(crate) scale: ScaleArguments,
     /// Samples a point.
     #[arg(long, short = 'p', value_name = "COUNT", default_value_t = 4096, value_parser = count::<u32>(1..=1 << 20))]
     pub(crate) spp: u32,
@@ -79,4 +72,18 @@ pub(crate) struct MeasureOptions {
     pub(crate) quiet: bool,
     #[command(flatten)]
     pub(crate) daylight: DaylightArguments,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct MeasureOptions {
+    #[command(flatten)]
+    pub(crate) measuring: MeasuringArguments,
+    /// Draw the grid in false colour with its values; with several grids the prim's name is put before the ending.
+    #[arg(long, short = 'o', value_name = "FILE.png")]
+    pub(crate) output: Option<PathBuf>,
+    /// Write every point with its value and standard error.
+    #[arg(long, value_name = "FILE.csv")]
+    pub(crate) csv: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) scale: ScaleArguments,
 }

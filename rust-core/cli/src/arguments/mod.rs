@@ -7,6 +7,7 @@ mod checkpoint;
 mod client_page;
 mod completion;
 mod daylight;
+mod dim;
 mod falsecolor;
 mod farm;
 mod glare;
@@ -34,13 +35,14 @@ pub(super) use checkpoint::{CheckpointArguments, MergeArguments};
 pub(super) use client_page::ShareOptions;
 pub(super) use completion::{CompletionOptions, ShellArgument};
 pub(super) use daylight::DaylightArguments;
+pub(super) use dim::DimOptions;
 pub(super) use falsecolor::{FalsecolorOptions, ScaleArguments};
 pub(super) use farm::FarmArguments;
 pub(super) use glare::GlareArguments;
 pub(super) use goniometer::GoniometerOptions;
 pub(super) use info::InfoOptions;
 pub(super) use map::MapArguments;
-pub(super) use measure::{GridArguments, MeasureOptions};
+pub(super) use measure::{GridArguments, MeasureOptions, MeasuringArguments};
 pub(super) use output::OutputArguments;
 pub(super) use photometry::{PhotometryOptions, SymmetryName};
 pub(super) use picture::{CompareOptions, RelightOptions};
@@ -57,6 +59,7 @@ use annual::{ANNUAL_EXAMPLES, ANNUAL_METRICS_EXAMPLES};
 use bsdf::BSDF_EXAMPLES;
 use clap::{Parser, Subcommand, ValueEnum};
 use client_page::SHARE_EXAMPLES;
+use dim::DIM_EXAMPLES;
 use gonio::scene::Integrator;
 use goniometer::GONIOMETER_EXAMPLES;
 use map::MAP_EXAMPLES;
@@ -70,7 +73,7 @@ use view::VIEW_EXAMPLES;
 const EXIT_STATUS: &str = "\
 Exit status:
   0    done
-  1    an error, told in one line; 'gonio compare' beyond --max
+  1    an error, told in one line; 'gonio compare' beyond --max; 'gonio dim' with a target that is not met
   2    a command line that cannot be understood
   3    the USD library broke down over the stage
   130  interrupted; the picture so far is written";
@@ -138,6 +141,12 @@ pub(super) enum Command {
     /// alone.
     #[command(after_long_help = MEASURE_EXAMPLES)]
     Measure(Box<MeasureOptions>),
+    /// Find the dimming of a USD stage's light groups that meets lighting targets at least power; write it as a layer over the stage.
+    ///
+    /// Measures what each group of lights (gonio:lightGroup) brings to the points once, as 'gonio measure' does. Light adds up, so the levels are a linear
+    /// program. Lights in no group, daylight as a rule, stay as they are. Where targets cannot be met, says which, and by how much.
+    #[command(after_long_help = DIM_EXAMPLES)]
+    Dim(Box<DimOptions>),
     /// Measure a luminaire of a USD stage as a goniophotometer does: intensities by direction, flux, light output ratio; write it as EULUMDAT, IES or TM-33.
     ///
     /// Light is followed from the sources within a prim (lights, glowing surfaces, ray files) through its reflectors, lenses and covers to where it

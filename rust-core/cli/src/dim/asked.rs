@@ -1,0 +1,75 @@
+//! What is to be reached, by the quantity of what it names.
+
+use super::{
+    groups::{LightGroup, numbers},
+    told,
+};
+use crate::arguments::DimOptions;
+use gonio::{
+    Error, Result,
+    scene::{Measurand, Scene},
+};
+use gonio_dimming::{Goal, Target};
+
+/// Targets, and what is sought beyond them.
+#[derive(Debug)]
+pub(super) struct Asked {
+    /// Of quantities that are linear in the light.
+    pub(super) light: Vec<Target>,
+    /// Of glare, which is rated once the levels are known.
+    pub(super) glare: Vec<Target>,
+    pub(super) goal: Goal,
+}
+
+impl Asked {
+    pub(super) fn new(options: &DimOptions, scene: &Scene, groups: &[LightGroup]) -> Result<Self> {
+        let targets = options.target.iter().map(|text| Target::parse(text)).collect::<std::result::Result<Vec<_>, _>>();
+        let mut asked = Self { light: Vec::new(), glare: Vec::new(), goal: goal(options, groups)? };
+        let mut known: Vec<(&str, Measurand)> = scene.meters.iter().map(|meter| (&*meter.origin.name, meter.measurand)).collect();
+        known.extend(scene.grids.iter().map(|grid| (&*grid.origin.name, grid.measurand)));
+        for target in targets.map_err(|error| told("target", error))? {
+            let found = target.find(&known, |(name, _)| name).map_err(|error| told("target", error))?;
+            match found.1 {
+                Measurand::Ugr => asked.glare.push(target),
+                Measurand::DaylightFactor => {
+                    let problem = format!("'{}' measures the daylight factor, which no dimming changes", target.area);
+                    return Err(Error::setting("target", problem));
+                }
+                _ => asked.light.push(target),
+            }
+        }
+        if asked.light.is_empty() {
+            return Err(Error::setting("target", "glare alone says nothing of the levels; name a target of light, as NAME.mean>=500"));
+        }
+        Ok(asked)
+    }
+
+    /// Whether a target of light names what has this name.
+    pub(super) fn names_light(&self, name: &str) -> bool {
+        self.light.iter().any(|target| target.names(name))
+    }
+
+    /// Whether a target of glare names what has this name.
+    pub(super) fn names_glare(&self, name: &str) -> bool {
+        self.glare.iter().any(|target| target.names(name))
+    }
+}
+
+/// What `--near` asks for.
+fn goal(options: &DimOptions, groups: &[LightGroup]) -> Result<Goal> {
+    match &options.near[..] {
+        [] => return Ok(Goal::LeastPower),
+        [one] if one == "equal" => return Ok(Goal::Equal),
+        several if several.iter().any(|text| text == "equal") => {
+            return Err(Error::setting("near", "'equal' stands alone, expected it or GROUP=LEVEL"));
+        }
+        _ => {}
+    }
+    let names: Vec<String> = groups.iter().map(|group| group.group.name.clone()).collect();
+    let wished = numbers("near", &options.near, &names)?;
+    if let Some((name, level)) = wished.iter().find(|(_, level)| *level > 1.0) {
+        return Err(Error::setting("near", format!("group '{name}' is to be near {level}, expected a level from 0 to 1")));
+    }
+    let of = |name: &String| wished.iter().rev().find(|(known, _)| known == name).map(|(_, level)| *level);
+    Ok(Goal::Near(names.iter().map(of).collect()))
+}

@@ -1,0 +1,181 @@
+"""`gonio dim`: levels against scipy's linear programs, and what `gonio measure` finds of the layer that it writes."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+
+gonio = pytest.importorskip("gonio")
+pytest.importorskip("pxr")
+
+# A floor of 8 m by 4 m of half reflectance, under eight lamps in two rows, two metres above it; each is a group, and stronger than the last.
+LAMPS = [(x, y, 5000 + 400 * number) for number, (y, x) in enumerate((y, x) for y in (-1.0, 1.0) for x in (-3.0, -1.0, 1.0, 3.0))]
+HEAD = """#usda 1.0
+(
+    metersPerUnit = 1
+    upAxis = "Z"
+)
+def Mesh "Floor" {
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]
+    point3f[] points = [(-4, -2, 0), (4, -2, 0), (4, 2, 0), (-4, 2, 0)]
+    double gonio:grid:spacing = 0.8
+}
+"""
+LAMP = """def SphereLight "{name}" {{
+    float inputs:radius = 0.05
+    double gonio:photometry:quantity = {lumens}
+    token gonio:lightGroup = "{group}"
+    {more}
+    double3 xformOp:translate = ({x}, {y}, 2)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}}
+"""
+QUICK = ("--grid", "/Floor", "--spp", 256, "--quiet")
+WATTS = [5.0, 5.5, 4.5, 6.0, 5.2, 4.8, 6.3, 5.7]
+
+
+def lamp(name, x, y, lumens, group, more=""):
+    return LAMP.format(name=name, x=x, y=y, lumens=lumens, group=group, more=more)
+
+
+@pytest.fixture
+def stage(tmp_path):
+    path = tmp_path / "stage.usda"
+    path.write_text(HEAD + "".join(lamp(f"Lamp{k}", x, y, lumens, f"g{k}") for k, (x, y, lumens) in enumerate(LAMPS)))
+    return path
+
+
+def options(*targets):
+    watts = [word for k, watts in enumerate(WATTS) for word in ("--watts", f"g{k}={watts}")]
+    return (*QUICK, *watts, *(word for target in targets for word in ("--target", target)))
+
+
+def dimmed(run, *arguments, status=0):
+    done = run("dim", *arguments, "--json")
+    assert done.returncode == status, done.stderr
+    return json.loads(done.stdout)
+
+
+def contributions(found):
+    """Points x groups, and the fixed part."""
+    points = found["areas"][0]["points"]
+    groups = np.array([[group["value"] for group in point["groups"]] for point in points])
+    return groups, np.array([point["fixed"]["value"] for point in points])
+
+
+def test_the_optimum_is_that_of_scipy(run, stage):
+    optimize = pytest.importorskip("scipy.optimize", reason="scipy is not there to compare with")
+    found = dimmed(run, stage, *options("Floor.mean>=120", "Floor.uo>=0.6", "Floor.max<=260"))
+    light, fixed = contributions(found)
+    assert np.all(fixed == 0)
+    mean = light.mean(axis=0)
+    rows = np.vstack([-mean, 0.6 * mean - light, light])
+    limits = np.concatenate([[-120.0], np.zeros(len(light)), np.full(len(light), 260.0)])
+    best = optimize.linprog(WATTS, A_ub=rows, b_ub=limits, bounds=(0, 1))
+    assert best.status == 0 and found["watts"] == pytest.approx(best.fun, rel=1e-5)
+    levels = np.array([group["level"] for group in found["groups"]])
+    assert np.all(rows @ levels <= limits + 1e-3) and levels @ WATTS == pytest.approx(found["watts"])
+    assert {target["verdict"] for target in found["targets"]} <= {"met", "within_error"}
+
+
+def test_contributions_are_those_of_the_lamps_alone(run, stage):
+    found = dimmed(run, stage, *options("/Floor.mean>=50"), "--integrator", "direct")
+    light, _ = contributions(found)
+    # E = I h / d³ of a lamp that is seen as a point, I = Φ / 4π. Grid cells are 10 × 5, the middles of cells of 0.8 m.
+    columns = np.array([-3.6 + 0.8 * k for k in range(10)])
+    rows = np.array([-1.6 + 0.8 * k for k in range(5)])
+    for k, (x, y, lumens) in enumerate(LAMPS):
+        away = (columns[None, :] - x) ** 2 + (rows[:, None] - y) ** 2 + 4
+        expected = np.sort((lumens / (4 * math.pi) * 2 / away**1.5).ravel())
+        assert np.sort(light[:, k]) == pytest.approx(expected, rel=0.01)
+
+
+def test_the_layer_meets_the_targets_when_it_is_measured(run, stage, tmp_path):
+    layer = tmp_path / "layers" / "dimmed.usda"
+    found = dimmed(run, stage, *options("Floor.mean>=120", "Floor.min>=60"), "--errors", 2, "-o", layer)
+    assert [target["verdict"] for target in found["targets"]] == ["met", "met"]
+    grid = json.loads(run("measure", layer, *QUICK, "--json").stdout)["grids"][0]
+    mean, least = grid["average"], grid["min"]
+    assert mean["value"] >= 120 - 2 * mean["standard_error"] and least["value"] >= 60 - 3 * least["standard_error"]
+    assert mean["value"] == pytest.approx(found["targets"][0]["reached"], abs=5 * math.hypot(mean["standard_error"], found["targets"][0]["error"]))
+    # The same again is the same.
+    text = layer.read_text()
+    dimmed(run, stage, *options("Floor.mean>=120", "Floor.min>=60"), "--errors", 2, "-o", layer)
+    assert layer.read_text() == text and "./../stage.usda" in text
+
+
+def test_a_dimming_of_the_stage_is_multiplied(run, tmp_path):
+    path, layer = tmp_path / "stage.usda", tmp_path / "dimmed.usda"
+    path.write_text(HEAD + lamp("Lamp", 0, 0, 1000, "only", "float gonio:photometry:dimming = 0.8"))
+    found = dimmed(run, path, "--at", "0,0,0", "--integrator", "direct", "--spp", 16, "--quiet", "--target", "0,0,0=10+-0", "-o", layer)
+    level = found["groups"][0]["level"]
+    assert level == pytest.approx(10 / (0.8 * 1000 / (4 * math.pi) / 4), rel=0.01)
+    assert found["groups"][0]["watts_from"] == "flux" and found["groups"][0]["watts_full"] == pytest.approx(8, rel=0.01)
+    meter = json.loads(run("measure", layer, "--at", "0,0,0", "--integrator", "direct", "--spp", 16, "--json", "--quiet").stdout)
+    assert meter["meters"][0]["value"] == pytest.approx(10, rel=2e-3)
+
+
+def test_lamps_in_no_group_stay_as_they_are(run, tmp_path):
+    path = tmp_path / "stage.usda"
+    path.write_text(HEAD + lamp("Lamp", 0, 0, 1000, "only") + lamp("Other", 2, 0, 1000, "").replace('    token gonio:lightGroup = ""\n', ""))
+    found = dimmed(run, path, "--at", "0,0,0", "--integrator", "direct", "--spp", 64, "--quiet", "--target", "0,0,0=15+-0")
+    point = found["areas"][0]["points"][0]
+    candela = 1000 / (4 * math.pi)
+    assert point["fixed"]["value"] == pytest.approx(candela * 2 / 8**1.5, rel=0.01)
+    assert point["groups"][0]["value"] == pytest.approx(candela / 4, rel=0.01)
+    assert found["groups"][0]["level"] == pytest.approx((15 - point["fixed"]["value"]) / point["groups"][0]["value"])
+
+
+def test_what_cannot_be_met_says_by_how_much(run, stage):
+    found = dimmed(run, stage, *options("Floor.mean>=5000"), "--fixed", "g0=0.5", status=1)
+    levels = [group["level"] for group in found["groups"]]
+    assert levels == pytest.approx([0.5] + [1.0] * 7, abs=1e-5)
+    target = found["targets"][0]
+    assert target["verdict"] == "not_met" and target["margin"] == pytest.approx(target["reached"] - 5000)
+    done = run("dim", stage, *options("Floor.mean>=5000"))
+    assert done.returncode == 1 and "Floor.mean>=5000: " in done.stdout and "not met by " in done.stdout and not done.stderr
+
+
+def test_least_levels_and_equal_ones(run, stage):
+    found = dimmed(run, stage, *options("Floor.mean>=80"), "--min-level", 0.25)
+    assert min(group["level"] for group in found["groups"]) == pytest.approx(0.25, abs=1e-6)
+    found = dimmed(run, stage, *options("Floor.mean>=80"), "--near", "equal")
+    levels = [group["level"] for group in found["groups"]]
+    assert max(levels) - min(levels) < 1e-5
+    found = dimmed(run, stage, *options("Floor.mean>=10"), "--near", "g3=0.7")
+    assert found["groups"][3]["level"] == pytest.approx(0.7, abs=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (("--target", "Floor.mean>500"), "expected NAME.mean>="),
+        (("--target", "Floor.mean>=nan"), "'nan' in it is no number"),
+        (("--target", "Floor.max>=5"), "expected NAME.mean>="),
+        (("--target", "Wall.mean>=5"), "nothing measured is called 'Wall', expected one of /Floor"),
+        (("--target", "Floor.mean>=5", "--watts", "x=5"), "there is no light group 'x', expected one of g0, g1"),
+        (("--target", "Floor.mean>=5", "--watts", "g0"), "expected GROUP=NUMBER"),
+        (("--target", "Floor.mean>=5", "--fixed", "g0=1.5"), "expected a level from 0 to 1"),
+        (("--target", "Floor.mean>=5", "--near", "equal", "--near", "g0=1"), "'equal' stands alone"),
+        (("--target", "Floor.mean>=5", "-o", "dimmed.png"), "expected usda"),
+        (("--target", "Floor.mean>=5", "--quantity", "daylight-factor"), "which no dimming changes"),
+    ],
+)
+def test_what_is_wrong_is_told_in_one_line(run, stage, arguments, told):
+    done = run("dim", stage, *QUICK, *arguments)
+    assert done.returncode == 1 and told in done.stderr and len(done.stderr.splitlines()) == 1
+
+
+def test_a_stage_without_groups_is_told(run, tmp_path):
+    path = tmp_path / "stage.usda"
+    path.write_text(HEAD)
+    done = run("dim", path, *QUICK, "--target", "Floor.mean>=5")
+    assert done.returncode == 1 and "gonio:lightGroup" in done.stderr
+
+
+@pytest.mark.parametrize("arguments", [("--min-level", "2"), ("--min-level", "nan"), ("--errors", "-1"), ("--errors", "inf")])
+def test_numbers_that_are_none_are_refused(run, stage, arguments):
+    done = run("dim", stage, *QUICK, "--target", "Floor.mean>=5", *arguments)
+    assert done.returncode == 2 and arguments[0] in done.stderr
