@@ -36,7 +36,7 @@ fn lines_with(folder: &str, needle: &str) -> Vec<String> {
 }
 
 /// Crates of the engine from the ground up, and which others of gonio each may use.
-const CRATES: [(&str, &[&str]); 18] = [
+const CRATES: [(&str, &[&str]); 19] = [
     ("simd", &[]),
     ("formats", &[]),
     ("spectrum", &["formats"]),
@@ -53,6 +53,7 @@ const CRATES: [(&str, &[&str]); 18] = [
     ("light", &["simd", "image", "table"]),
     ("nodes", &["simd"]),
     ("scene", &["formats", "image", "nodes", "volume"]),
+    ("models", &["formats", "scene"]),
     ("transport", &["simd", "accel", "image", "bsdf", "light", "camera", "nodes"]),
     ("engine", &["simd", "formats", "sky", "mesh", "accel", "image", "table", "camera", "bsdf", "light", "nodes", "scene", "transport"]),
 ];

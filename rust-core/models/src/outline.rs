@@ -13,10 +13,8 @@ const AREA_ERROR: f64 = 1e-4;
 pub(crate) struct Cut {
     /// Corners, those of holes after those of the boundary.
     pub(crate) points: Vec<Vec3>,
-    /// Counter-clockwise about the normal.
+    /// Counter-clockwise about the normal of the boundary's sense.
     pub(crate) triangles: Vec<[u32; 3]>,
-    /// Unit normal by the boundary's sense.
-    pub(crate) normal: Vec3,
     /// What is doubtful about it.
     pub(crate) doubt: Option<&'static str>,
 }
@@ -59,7 +57,7 @@ pub(crate) fn cut(boundary: &[Vec3], holes: &[Vec<Vec3>]) -> Result<Cut, String>
     } else {
         None
     };
-    Ok(Cut { points, triangles, normal, doubt })
+    Ok(Cut { points, triangles, doubt })
 }
 
 fn corner_problem(corners: &[Vec3]) -> Option<String> {

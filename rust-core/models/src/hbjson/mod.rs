@@ -87,7 +87,7 @@ impl<'a> Reader<'a> {
             radiance.list("luminaires").iter().for_each(|luminaire| self.luminaire(luminaire));
         }
         for (count, what) in self.states.told() {
-            let origin = Origin { name: what.into(), file: self.file.as_str().into() };
+            let origin = Origin { name: what.as_str().into(), file: self.file.as_str().into() };
             self.builder.note(&origin, format!("of its {count} states the first is shown; --state {what}=N shows another, counted from 0"));
         }
     }

@@ -90,7 +90,7 @@ pub(super) fn object<'a>(tokens: &[Token<'a>], at: usize) -> Result<(Object<'a>,
         object.strings.push(word("the name that the alias stands for")?.0.text);
         return Ok((object, next));
     }
-    let mut count = |expected: &str, word: &mut dyn FnMut(&str) -> Result<(Token<'a>, usize), (String, usize)>| {
+    let count = |expected: &str, word: &mut dyn FnMut(&str) -> Result<(Token<'a>, usize), (String, usize)>| {
         let (found, place) = word(expected)?;
         let wrong = || (format!("{} '{}': '{}' was found, expected {expected}", kind.text, name.text, found.text), place);
         found.text.parse::<usize>().map_err(|_| wrong())
