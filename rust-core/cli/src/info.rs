@@ -1,7 +1,8 @@
 //! `gonio info`.
 
 use super::{
-    arguments::InfoOptions, explain, lamps_in_view, light_numbers, light_words::describe, messages::print, render::stage_options, stage::Stage, volume,
+    arguments::InfoOptions, explain, lamps_in_view, light_numbers, light_words::describe, messages::print, render::stage_options,
+    stage::Stage, volume,
 };
 use gonio::{
     Diagnostic, Result,

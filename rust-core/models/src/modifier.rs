@@ -18,18 +18,46 @@ const REC709_LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
 pub(crate) enum Modifier {
     /// Nothing is there.
     Void,
-    Plastic { colour: Vec3, specularity: f64, roughness: f64 },
-    Metal { colour: Vec3, specularity: f64, roughness: f64 },
-    Trans { colour: Vec3, specularity: f64, roughness: f64, transmitted: f64, transmitted_specular: f64 },
+    Plastic {
+        colour: Vec3,
+        specularity: f64,
+        roughness: f64,
+    },
+    Metal {
+        colour: Vec3,
+        specularity: f64,
+        roughness: f64,
+    },
+    Trans {
+        colour: Vec3,
+        specularity: f64,
+        roughness: f64,
+        transmitted: f64,
+        transmitted_specular: f64,
+    },
     /// A pane of a transmissivity: what is left of light after one way through.
-    Glass { transmissivity: Vec3, index: f64 },
+    Glass {
+        transmissivity: Vec3,
+        index: f64,
+    },
     /// A solid of a transmissivity a unit of length, which is so many metres.
-    Dielectric { transmissivity: Vec3, index: f64, metres: f64 },
-    Mirror { colour: Vec3 },
+    Dielectric {
+        transmissivity: Vec3,
+        index: f64,
+        metres: f64,
+    },
+    Mirror {
+        colour: Vec3,
+    },
     /// A lamp that shines from its front, W/(sr m²).
-    Light { radiance: Vec3 },
+    Light {
+        radiance: Vec3,
+    },
     /// A measured BSDF, and what points up in its sample.
-    Measured { bsdf: Arc<gonio_formats::bsdf::Measured>, up: Vec3 },
+    Measured {
+        bsdf: Arc<gonio_formats::bsdf::Measured>,
+        up: Vec3,
+    },
 }
 
 /// A material, and what points up in a measured one's sample.

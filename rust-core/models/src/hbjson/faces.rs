@@ -44,7 +44,10 @@ impl<'a> Reader<'a> {
                 let result = self.punched(face, &parts, set, place);
                 self.tell(face, result);
             }
-            None => self.warn(face, &format!("face type '{face_type}' was found, expected Wall, Floor, RoofCeiling or AirBoundary; it is left out")),
+            None => self.warn(
+                face,
+                &format!("face type '{face_type}' was found, expected Wall, Floor, RoofCeiling or AirBoundary; it is left out"),
+            ),
         }
         parts.iter().for_each(|part| self.sub_face(part, set, face_type));
         self.shades_of(face, set);

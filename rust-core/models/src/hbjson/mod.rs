@@ -56,8 +56,7 @@ pub(crate) fn read(path: &Path, text: &str, options: &Options) -> Result<Model> 
     let mut builder = Builder::default();
     builder.model.metres_per_unit = metres;
     let library = Library::of(&root);
-    let mut reader =
-        Reader { builder, library, states: States::new(&options.states), file, metres, twins: HashSet::new() };
+    let mut reader = Reader { builder, library, states: States::new(&options.states), file, metres, twins: HashSet::new() };
     reader.model(&root);
     reader.states.check()?;
     Ok(reader.builder.model)

@@ -74,9 +74,7 @@ fn defined(node: &Node<'_>) -> Result<Modifier, String> {
             transmitted: node.number("transmitted_diff", 0.0)?,
             transmitted_specular: node.number("transmitted_spec", 0.0)?,
         },
-        "Glass" => {
-            Modifier::Glass { transmissivity: colour("transmissivity")?, index: node.number("refraction_index", GLASS_INDEX)? }
-        }
+        "Glass" => Modifier::Glass { transmissivity: colour("transmissivity")?, index: node.number("refraction_index", GLASS_INDEX)? },
         "Mirror" => Modifier::Mirror { colour: colour("reflectance")? },
         "Light" | "Glow" => Modifier::Light { radiance: colour("emittance")? },
         "BSDF" => {

@@ -57,7 +57,9 @@ impl<'a> Node<'a> {
     pub(super) fn number(&self, key: &str, otherwise: f64) -> Result<f64, String> {
         match self.get(key) {
             None => Ok(otherwise),
-            Some(node) => node.value.as_f64().filter(|x| x.is_finite()).ok_or_else(|| format!("{} is {}, expected a number", key, node.value)),
+            Some(node) => {
+                node.value.as_f64().filter(|x| x.is_finite()).ok_or_else(|| format!("{} is {}, expected a number", key, node.value))
+            }
         }
     }
 

@@ -137,8 +137,10 @@ fn genbox(words: &[String]) -> Result<String, String> {
         if inwards {
             corners.reverse();
         }
-        let numbers: Vec<String> =
-            corners.iter().flat_map(|corner| (0..3).map(move |axis| if corner >> axis & 1 == 1 { size[axis] } else { 0.0 }.to_string())).collect();
+        let numbers: Vec<String> = corners
+            .iter()
+            .flat_map(|corner| (0..3).map(move |axis| if corner >> axis & 1 == 1 { size[axis] } else { 0.0 }.to_string()))
+            .collect();
         format!("{modifier} polygon {name}.{number} 0 0 12 {}\n", numbers.join(" "))
     };
     Ok(faces.iter().enumerate().map(polygon).collect())

@@ -90,11 +90,9 @@ impl Reader {
                 let index = numbers.numbers.get(3).copied().unwrap_or(GLASS_INDEX);
                 Modifier::Glass { transmissivity: numbers.colour()?, index }
             }
-            "dielectric" => Modifier::Dielectric {
-                transmissivity: numbers.colour()?,
-                index: numbers.after_colour::<1>(4)?[0],
-                metres: placed.scale,
-            },
+            "dielectric" => {
+                Modifier::Dielectric { transmissivity: numbers.colour()?, index: numbers.after_colour::<1>(4)?[0], metres: placed.scale }
+            }
             "mirror" => Modifier::Mirror { colour: numbers.colour()? },
             "light" => Modifier::Light { radiance: numbers.colour()? },
             "glow" => self.glow(&numbers, origin)?,

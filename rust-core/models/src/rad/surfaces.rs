@@ -1,10 +1,10 @@
 //! Surfaces.
 
+use super::Reader;
 use super::materials::{Entry, What};
 use super::round::{disc, lathe, sphere};
 use super::tokens::Object;
 use super::xform::Placed;
-use super::Reader;
 use crate::builder::Triangles;
 use crate::default_sky::add_dome;
 use crate::modifier::{Modifier, luminous};
@@ -137,7 +137,11 @@ impl Arguments<'_> {
 
     fn radius_or_none(&self, at: usize) -> Result<f64, String> {
         let radius = self.numbers[at];
-        if radius >= 0.0 { Ok(radius * self.placed.scale) } else { Err(format!("radius {radius} was found, expected a number of 0 or more")) }
+        if radius >= 0.0 {
+            Ok(radius * self.placed.scale)
+        } else {
+            Err(format!("radius {radius} was found, expected a number of 0 or more"))
+        }
     }
 
     fn radius(&self, at: usize) -> Result<f64, String> {

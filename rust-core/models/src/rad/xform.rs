@@ -61,7 +61,10 @@ pub(super) fn parse(words: &[String]) -> Result<(Vec<Placed>, Vec<String>), Stri
     while let Some(option) = words.get(at).filter(|word| word.starts_with('-') && word.len() > 1) {
         let number = |offset: usize| -> Result<f64, String> {
             let text = words.get(at + offset).ok_or_else(|| format!("xform {option}: the command ends, expected a number"))?;
-            text.parse::<f64>().ok().filter(|x| x.is_finite()).ok_or_else(|| format!("xform {option}: '{text}' was found, expected a number"))
+            text.parse::<f64>()
+                .ok()
+                .filter(|x| x.is_finite())
+                .ok_or_else(|| format!("xform {option}: '{text}' was found, expected a number"))
         };
         let last = parts.last_mut().ok_or("no part")?;
         let mut step = |transform: Transform, scale: f64| {
@@ -131,7 +134,8 @@ fn turned(axis: usize, degrees: f64) -> Transform {
 fn copies(parts: &[Part], base: &Placed) -> Result<Vec<Placed>, String> {
     let mut copies = vec![base.clone()];
     for part in parts {
-        let then = |copy: &Placed| Placed { transform: part.transform.after(&copy.transform), scale: copy.scale * part.scale, ..copy.clone() };
+        let then =
+            |copy: &Placed| Placed { transform: part.transform.after(&copy.transform), scale: copy.scale * part.scale, ..copy.clone() };
         if part.is_array {
             if copies.len().saturating_mul(part.count) > MOST_COPIES {
                 return Err(format!("xform -a: more than {MOST_COPIES} copies"));

@@ -117,7 +117,7 @@ fn broken_files_are_errors_with_their_line() {
     for (text, expected) in [
         (&text[..text.len() / 2], "no JSON"),
         ("", "no JSON"),
-        (&text.replace("[0,3,0]", "[0,NaN,0]"), "a.hbjson:4: this is no JSON"),
+        (&text.replace("[0,3,0]", "[0,NaN,0]"), "a.hbjson:5: this is no JSON"),
         (r#"{"type": "Room"}"#, "type 'Room' was found, expected a honeybee Model"),
         ("[1, 2]", "expected a honeybee Model"),
     ] {

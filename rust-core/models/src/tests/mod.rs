@@ -14,7 +14,11 @@ fn model(name: &str, text: &str) -> Model {
 
 fn try_model(name: &str, text: &str) -> gonio_scene::Result<Model> {
     let path = Path::new("/nowhere").join(name);
-    if name.ends_with("rad") { crate::rad::read(&path, text, &Options::default()) } else { crate::hbjson::read(&path, text, &Options::default()) }
+    if name.ends_with("rad") {
+        crate::rad::read(&path, text, &Options::default())
+    } else {
+        crate::hbjson::read(&path, text, &Options::default())
+    }
 }
 
 /// The warnings and notes with their places.

@@ -26,7 +26,9 @@ fn surfaces_have_their_areas() {
 
 #[test]
 fn lamps_shine_by_their_radiance() {
-    let found = scene("lamp sphere s 0 0 4 1 2 3 .5\nlamp source sun 0 0 4 0 0 1 .5\nlamp source sky 0 0 4 0 0 1 180\nlamp polygon p 0 0 9 0 0 0 1 0 0 0 1 0\n");
+    let found = scene(
+        "lamp sphere s 0 0 4 1 2 3 .5\nlamp source sun 0 0 4 0 0 1 .5\nlamp source sky 0 0 4 0 0 1 180\nlamp polygon p 0 0 9 0 0 0 1 0 0 0 1 0\n",
+    );
     let lights = &found.scene.lights;
     assert_eq!(lights.len(), 3);
     // 179 lm/W, as Radiance has it.
@@ -78,7 +80,11 @@ fn rotations_run_as_radiance_has_them() {
     let found = scene("!genbox grey box 1 1 1 | xform -rz 90 -t 5 0 0\n");
     let xs = found.scene.instances.iter().map(|set| set.transforms[0].columns[3]);
     // About z by 90°, x becomes y and y becomes −x.
-    assert!(xs.clone().all(|p| p[0] < 5.0 + 1e-9 && p[0] > 4.0 - 1e-9 && p[1] > -1e-9 && p[1] < 1.0 + 1e-9), "{:?}", xs.collect::<Vec<_>>());
+    assert!(
+        xs.clone().all(|p| p[0] < 5.0 + 1e-9 && p[0] > 4.0 - 1e-9 && p[1] > -1e-9 && p[1] < 1.0 + 1e-9),
+        "{:?}",
+        xs.collect::<Vec<_>>()
+    );
 }
 
 #[test]
@@ -118,7 +124,9 @@ fn what_is_wrong_is_told_with_its_line_and_the_rest_is_read() {
 
 #[test]
 fn a_sky_by_a_pattern_is_no_sky() {
-    let found = scene("void brightfunc skyfunc 2 skybr skybright.cal 0 7 1 2 3 4 5 6 7\nskyfunc glow sky_glow 0 0 4 1 1 1 0\nsky_glow source sky 0 0 4 0 0 1 180\n");
+    let found = scene(
+        "void brightfunc skyfunc 2 skybr skybright.cal 0 7 1 2 3 4 5 6 7\nskyfunc glow sky_glow 0 0 4 1 1 1 0\nsky_glow source sky 0 0 4 0 0 1 180\n",
+    );
     assert!(found.scene.lights.is_empty());
     assert!(told(&found).iter().any(|line| line.contains("its pattern 'skyfunc' is not read")), "{:?}", told(&found));
 }
