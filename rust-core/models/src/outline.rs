@@ -64,7 +64,7 @@ fn corner_problem(corners: &[Vec3]) -> Option<String> {
     if corners.len() < 3 {
         return Some(format!("{} corners were found, expected three or more", corners.len()));
     }
-    corners.iter().flatten().any(|x| !(x.abs() < 1e15)).then(|| "a coordinate is not a finite number".into())
+    corners.iter().flatten().any(|x| x.is_nan() || x.abs() >= 1e15).then(|| "a coordinate is not a finite number".into())
 }
 
 fn signed(flat: &[[f64; 2]], [a, b, c]: [u32; 3]) -> f64 {

@@ -67,6 +67,9 @@ pub(super) struct Token<'a> {
     pub(super) first: bool,
 }
 
+/// A word and its number, or what was expected there.
+type Word<'a> = Result<(Token<'a>, usize), (String, usize)>;
+
 /// A primitive.
 #[derive(Debug)]
 pub(super) struct Object<'a> {
@@ -132,7 +135,7 @@ pub(super) fn object<'a>(tokens: &[Token<'a>], at: usize) -> Result<(Object<'a>,
         object.strings.push(word("the name that the alias stands for")?.0.text);
         return Ok((object, next));
     }
-    let count = |expected: &str, word: &mut dyn FnMut(&str) -> Result<(Token<'a>, usize), (String, usize)>| {
+    let count = |expected: &str, word: &mut dyn FnMut(&str) -> Word<'a>| {
         let (found, place) = word(expected)?;
         let wrong = || (format!("{} '{}': '{}' was found, expected {expected}", kind.text, name.text, found.text), place);
         found.text.parse::<usize>().map_err(|_| wrong())
