@@ -208,7 +208,7 @@ def test_errors_are_true(run, tmp_path, weather):
 
 
 BAD = [
-    ((), "there is no grid that measures illuminance"),
+    ((), "there is no grid and no meter that measures illuminance"),
     (("--grid", "/Nothing"), "/Nothing"),
     (("--grid", "/Floor", "--closed-variant", "blinds"), "'blinds' was found, expected /Prim{set=variant}"),
     (("--grid", "/Floor", "--blinds", "1.5"), "blinds: 1.5 was found, expected 0 to 1"),

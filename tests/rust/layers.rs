@@ -36,7 +36,7 @@ fn lines_with(folder: &str, needle: &str) -> Vec<String> {
 }
 
 /// Crates of the engine from the ground up, and which others of gonio each may use.
-const CRATES: [(&str, &[&str]); 20] = [
+const CRATES: [(&str, &[&str]); 21] = [
     ("simd", &[]),
     ("formats", &[]),
     ("spectrum", &["formats"]),
@@ -55,6 +55,7 @@ const CRATES: [(&str, &[&str]); 20] = [
     ("light", &["simd", "image", "table"]),
     ("nodes", &["simd"]),
     ("scene", &["formats", "image", "nodes", "volume"]),
+    ("models", &["formats", "scene"]),
     ("transport", &["simd", "accel", "image", "bsdf", "light", "camera", "nodes"]),
     (
         "engine",

@@ -15,6 +15,10 @@ pub struct LuminaireFile {
 }
 
 impl LuminaireFile {
+    /// What a file of a path holds, and what lights have of it.
+    pub fn new(path: String, photometry: photometry::Goniogram, goniogram: Arc<Goniogram>) -> Self {
+        Self { path, photometry, goniogram }
+    }
     /// Whether a light of the scene that was read with it has its goniogram from this file.
     pub fn is_of(&self, light: &Light) -> bool {
         light.goniogram.as_ref().is_some_and(|goniogram| Arc::ptr_eq(goniogram, &self.goniogram))

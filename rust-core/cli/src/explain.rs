@@ -1,13 +1,13 @@
 //! `--explain`: what a prim has become.
 
-use super::{arguments::RenderOptions, light_words::describe, messages::print, render::sample_time};
+use super::{arguments::RenderOptions, light_words::describe, messages::print, render::sample_time, stage::Stage};
 use gonio::{
     Result,
     compile::luminous_fluxes,
     scene::{Camera, Projection},
 };
 use gonio_formats::short_number;
-use gonio_usd::{Loaded, Stage, StageOptions, explain::explain};
+use gonio_usd::{Loaded, StageOptions, explain::explain};
 use pyo3::prelude::*;
 use std::sync::atomic::AtomicBool;
 
@@ -30,7 +30,7 @@ pub(super) fn render(
 /// Prints the lines.
 pub(super) fn tell(py: Python<'_>, stage: &Stage, options: &StageOptions, loaded: &Loaded, path: &str) -> Result<i32> {
     let path = if path.len() > 1 { path.trim_end_matches('/') } else { path };
-    let lines = explain(py, stage, options, loaded, path)?;
+    let lines = explain(py, stage.usd("explain")?, options, loaded, path)?;
     lines.iter().for_each(|line| print(line));
     lights(loaded, path).iter().for_each(|line| print(line));
     loaded.scene.cameras.iter().filter(|camera| &*camera.origin.name == path).for_each(|camera| print(&of_camera(camera)));

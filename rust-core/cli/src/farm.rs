@@ -14,6 +14,7 @@ use super::{
         MOST_WARNINGS, attributes, complete_scene, files_of, frames_of, name_layers, sample_time, shows_motion, stage_options,
         write_cropped,
     },
+    stage::Stage,
 };
 use clap::Parser;
 use gonio::{
@@ -21,7 +22,7 @@ use gonio::{
     checkpoint::{merge, parts},
 };
 use gonio_simd::Execution;
-use gonio_usd::{Loaded, Stage, StageOptions, framing::is_camera_lit};
+use gonio_usd::{Loaded, StageOptions, framing::is_camera_lit};
 use pyo3::{
     prelude::*,
     types::{PyCFunction, PyDict, PyTuple},
@@ -82,7 +83,8 @@ pub(super) fn render(py: Python<'_>, options: &mut RenderOptions, words: &[Strin
 }
 
 fn open(py: Python<'_>, options: &RenderOptions) -> Result<Stage> {
-    Stage::open(py, &options.stage.stage, &StageOptions { camera: options.camera.clone(), ..stage_options(&options.stage)? })
+    let stage_options = StageOptions { camera: options.camera.clone(), ..stage_options(&options.stage)? };
+    Stage::open(py, &options.stage.stage, &options.stage.state, &stage_options)
 }
 
 /// The stage at a frame with what the command line says.

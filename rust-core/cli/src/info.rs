@@ -1,14 +1,15 @@
 //! `gonio info`.
 
 use super::{
-    arguments::InfoOptions, explain, lamps_in_view, light_numbers, light_words::describe, messages::print, render::stage_options, volume,
+    arguments::InfoOptions, explain, lamps_in_view, light_numbers, light_words::describe, messages::print, render::stage_options,
+    stage::Stage, volume,
 };
 use gonio::{
     Diagnostic, Result,
     compile::{CompiledScene, compile},
     scene::{Field, Scene},
 };
-use gonio_usd::{SampleTime, Stage};
+use gonio_usd::SampleTime;
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 use std::sync::atomic::AtomicBool;
@@ -24,7 +25,7 @@ pub(super) fn info(py: Python<'_>, options: &InfoOptions, interrupted: &AtomicBo
     if let Some(frame) = options.frame {
         stage_options.time = SampleTime::Code(frame);
     }
-    let stage = Stage::open(py, &options.stage.stage, &stage_options)?;
+    let stage = Stage::open(py, &options.stage.stage, &options.stage.state, &stage_options)?;
     let loaded = stage.load(py, &stage_options, interrupted)?;
     if let Some(path) = &options.explain {
         return explain::tell(py, &stage, &stage_options, &loaded, path);

@@ -45,6 +45,7 @@ mod sequence;
 mod share;
 mod snapshot;
 mod spectrum;
+mod stage;
 mod view;
 mod volume;
 

@@ -10,6 +10,7 @@ use super::{
     progress::Reporter,
     render::{MOST_WARNINGS, stage_options},
     share::share,
+    stage::{Stage, light_model},
 };
 use gonio::{
     Error, Result,
@@ -26,7 +27,7 @@ use gonio::{
 };
 use gonio_simd::Execution;
 use gonio_usd::{
-    Loaded, SampleTime, Stage, camera,
+    Loaded, SampleTime, camera,
     view::{Resolution, ViewOptions, complete},
 };
 use pyo3::prelude::*;
@@ -52,7 +53,7 @@ pub(super) fn map(py: Python<'_>, options: &MapArguments, interrupted: &'static 
     check_targets(&options.output)?;
     let mut stage_options = stage_options(&options.stage)?;
     stage_options.time = options.frame.map_or(SampleTime::Start, SampleTime::Code);
-    let stage = Stage::open(py, &options.stage.stage, &stage_options)?;
+    let stage = Stage::open(py, &options.stage.stage, &options.stage.state, &stage_options)?;
     for path in &options.output {
         if stage.is_made_of(py, path)? {
             let problem = format!("{} is a layer of the stage that is measured; write the map beside it", path.display());
@@ -73,6 +74,7 @@ fn run(
 ) -> Result<i32> {
     let most = if options.stage.verbose { usize::MAX } else { MOST_WARNINGS };
     daylight::add(&options.daylight, &mut loaded, options.stage.strict, options.quiet)?;
+    light_model(&options.stage.stage, &mut loaded, options.quiet);
     let camera = ViewOptions {
         camera: options.view.clone(),
         resolution: options.image_width.map_or(Resolution::Stage, Resolution::Width),

@@ -9,6 +9,7 @@ use super::{
     messages::print,
     progress::Reporter,
     render::{MOST_WARNINGS, stage_options},
+    stage::{Stage, light_model},
 };
 use gonio::{
     Error, Result,
@@ -18,7 +19,7 @@ use gonio::{
     scene::{Measurand, Meter, Origin, Scene},
 };
 use gonio_simd::Execution;
-use gonio_usd::{Loaded, SampleTime, Stage, context::UpAxis};
+use gonio_usd::{Loaded, SampleTime, context::UpAxis};
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 use std::{
@@ -41,7 +42,7 @@ pub(super) fn loaded(py: Python<'_>, options: &MeasuringArguments, interrupted: 
     let measurand = options.quantity.as_deref().map(measurand).transpose()?;
     let mut stage_options = stage_options(&options.stage)?;
     stage_options.time = options.frame.map_or(SampleTime::Start, SampleTime::Code);
-    let stage = Stage::open(py, &options.stage.stage, &stage_options)?;
+    let stage = Stage::open(py, &options.stage.stage, &options.stage.state, &stage_options)?;
     author_grids(py, &stage, &options.grids, measurand)?;
     let mut loaded = stage.load(py, &stage_options, interrupted)?;
     let points = points(options, measurand.unwrap_or(Measurand::Illuminance), loaded.info.up_axis)?;
@@ -52,6 +53,7 @@ pub(super) fn loaded(py: Python<'_>, options: &MeasuringArguments, interrupted: 
     }
     loaded.scene.meters.extend(points);
     daylight::add(&options.daylight, &mut loaded, options.stage.strict, options.quiet)?;
+    light_model(&options.stage.stage, &mut loaded, options.quiet);
     if !options.quiet {
         list(&loaded.diagnostics, most_warnings(options));
     }
@@ -78,7 +80,7 @@ fn measurand(name: &str) -> Result<Measurand> {
 /// Makes the prims that the command line names grids; without a quantity they measure their own, else illuminance.
 pub(super) fn author_grids(py: Python<'_>, stage: &Stage, grids: &GridArguments, measurand: Option<Measurand>) -> Result<()> {
     let lengths = [grids.spacing, grids.margin, grids.height];
-    grids.grid.iter().try_for_each(|prim| stage.author_grid(py, prim, measurand.map(Measurand::name), lengths))
+    grids.grid.iter().try_for_each(|prim| stage.usd("grid")?.author_grid(py, prim, measurand.map(Measurand::name), lengths))
 }
 
 fn run(options: &MeasureOptions, loaded: Loaded, interrupted: &'static AtomicBool) -> Result<i32> {

@@ -15,6 +15,7 @@ use super::{
     progress::{Reporter, clock},
     sequence,
     snapshot::Snapshots,
+    stage::Stage,
 };
 use gonio::{
     Error, Result,
@@ -25,9 +26,10 @@ use gonio::{
     scene::{AMBIENT_OCCLUSION, Aov, Crop, EYE_NORMAL, EYE_POSITION, Filter, MatteKind, Scene, Settings},
     texture::TextureStatistics,
 };
+use gonio_models::is_model;
 use gonio_simd::Execution;
 use gonio_usd::{
-    Complexity, Loaded, Purpose, SampleTime, Stage, StageOptions, VariantSelection, camera,
+    Complexity, Loaded, Purpose, SampleTime, StageOptions, VariantSelection, camera,
     frame_name::has_frame,
     framing::is_camera_lit,
     render_settings::RenderVariable,
@@ -55,7 +57,7 @@ pub(super) fn render(py: Python<'_>, options: &RenderOptions, interrupted: &'sta
     stage_options.kept = options.frame_count.is_some() || options.frames.as_ref().is_some_and(|frames| frames.contains([',', ':']));
     stage_options.detached = stage_options.kept;
     let start = Instant::now();
-    let stage = Stage::open(py, &options.stage.stage, &stage_options)?;
+    let stage = Stage::open(py, &options.stage.stage, &options.stage.state, &stage_options)?;
     if options.stage.verbose && !options.quiet {
         say(&format!("pxr imported and the stage opened in {:.2} s", start.elapsed().as_secs_f64()));
     }
@@ -222,6 +224,15 @@ pub(super) fn complete_scene(options: &RenderOptions, loaded: &mut Loaded, produ
     Job::apply_settings(options, loaded, product)
 }
 
+/// Which light scenes without any get: models, whose rooms a lamp at the camera would not light, an even sky.
+fn headlight(options: &RenderOptions) -> Headlight {
+    match options.headlight {
+        Some(HeadlightArgument::Dome) => Headlight::Dome,
+        None if is_model(&options.stage.stage) => Headlight::Dome,
+        _ => Headlight::Camera,
+    }
+}
+
 /// What the header of EXR files says beside the passes.
 pub(super) fn attributes(options: &RenderOptions, scene: &Scene) -> [(String, String); 3] {
     let camera = &scene.cameras[scene.settings.camera as usize];
@@ -281,7 +292,7 @@ impl Job<'_> {
             scale: if options.res_scale >= 10.0 { options.res_scale / 100.0 } else { options.res_scale },
             pixel_aspect: options.pixel_aspect,
             camera_light: !options.disable_camera_light && options.headlight != Some(HeadlightArgument::None),
-            headlight: if options.headlight == Some(HeadlightArgument::Dome) { Headlight::Dome } else { Headlight::Camera },
+            headlight: headlight(options),
             data_window: options.crop.is_none(),
             product,
         };

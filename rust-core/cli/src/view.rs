@@ -5,10 +5,12 @@ use super::{
     daylight,
     interrupt::INTERRUPTED,
     render::stage_options,
+    stage::Stage,
 };
 use clap::Parser;
 use gonio::{Error, Result, Severity, compile::Bounds, output::ToneMap};
-use gonio_usd::{Loaded, SampleTime, StageOptions, camera, context::UpAxis, framing::camera_light_of, load_stage, view, view::complete};
+use gonio_models::is_model;
+use gonio_usd::{Loaded, SampleTime, StageOptions, camera, context::UpAxis, framing::camera_light_of, view, view::complete};
 use pyo3::{prelude::*, types::PyDict};
 use serde_json::{Value, json};
 use std::path::Path;
@@ -34,12 +36,14 @@ pub fn view_scene(py: Python<'_>, words: &[String], folder: &Path, frame: Option
     options.inputs().for_each(|path| *path = folder.join(&*path));
     let time = frame.or(options.frame).map_or(SampleTime::Start, SampleTime::Code);
     let stage_options = StageOptions { time, camera: options.camera.clone(), ..stage_options(&options.stage)? };
-    let mut loaded = load_stage(py, &options.stage.stage, &stage_options, &INTERRUPTED)?;
+    let stage = Stage::open(py, &options.stage.stage, &options.stage.state, &stage_options)?;
+    let mut loaded = stage.load(py, &stage_options, &INTERRUPTED)?;
     daylight::add(&options.daylight, &mut loaded, options.stage.strict, true)?;
     // The window cuts no part out of the view and has passes of its own.
     let wanted = view::ViewOptions {
         camera: options.camera.clone(),
         camera_light: !options.disable_camera_light,
+        headlight: if is_model(&options.stage.stage) { view::Headlight::Dome } else { view::Headlight::Camera },
         data_window: false,
         ..view::ViewOptions::default()
     };

@@ -12,6 +12,7 @@ use crate::{
     messages::{list, print},
     progress::Reporter,
     render::{MOST_WARNINGS, stage_options},
+    stage::Stage,
 };
 use gonio::{
     Diagnostic, Error, Result,
@@ -23,7 +24,7 @@ use gonio::{
 };
 use gonio_annual::{Group, Settings, sky::SkyOptions};
 use gonio_simd::Execution;
-use gonio_usd::{Loaded, SampleTime, Stage, VariantSelection, daylight::up_axis};
+use gonio_usd::{Loaded, SampleTime, VariantSelection, daylight::up_axis};
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -85,7 +86,7 @@ fn load(py: Python<'_>, options: &AnnualOptions, variants: &[String], interrupte
         let problem = || Error::setting("closed-variant", format!("'{text}' was found, expected /Prim{{set=variant}}"));
         stage_options.variants.push(VariantSelection::parse(text).ok_or_else(problem)?);
     }
-    let stage = Stage::open(py, &options.stage.stage, &stage_options)?;
+    let stage = Stage::open(py, &options.stage.stage, &options.stage.state, &stage_options)?;
     author_grids(py, &stage, &options.grids, None)?;
     let mut loaded = stage.load(py, &stage_options, interrupted)?;
     if !options.grids.grid.is_empty() {

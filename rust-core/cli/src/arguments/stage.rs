@@ -7,7 +7,7 @@ use std::path::PathBuf;
 /// What of the stage is read.
 #[derive(Args, Clone, Debug)]
 pub(crate) struct StageArguments {
-    /// The stage: a .usd, .usda, .usdc or .usdz file.
+    /// The stage: a .usd, .usda, .usdc or .usdz file; or a honeybee model (.hbjson) or a Radiance scene (.rad).
     pub(crate) stage: PathBuf,
     /// Purposes shown beside 'default': render, proxy, guide, separated by commas; without it those of the render settings, or render.
     #[arg(long, value_name = "PURPOSES", value_delimiter = ',')]
@@ -46,6 +46,9 @@ pub(crate) struct StageArguments {
     /// Go on where a light's IES or EULUMDAT file is missing or cannot be read, with a warning: by its quantity's even light, else dark.
     #[arg(long, conflicts_with = "strict")]
     pub(crate) lenient: bool,
+    /// Show a dynamic group of a honeybee model in its state N, counted from 0; may be given several times.
+    #[arg(long, value_name = "GROUP=N")]
+    pub(crate) state: Vec<String>,
     /// Treat every warning as an error.
     #[arg(long)]
     pub(crate) strict: bool,

@@ -8,6 +8,7 @@ use crate::{
     progress::{Reporter, clock},
     render::MOST_WARNINGS,
     share::share,
+    stage::Stage,
 };
 use gonio::{
     Diagnostic, Error, Result,
@@ -17,7 +18,7 @@ use gonio::{
 };
 use gonio_formats::bsdf::{Basis, Format, Measured};
 use gonio_simd::Execution;
-use gonio_usd::{SampleTime, Stage, StageOptions};
+use gonio_usd::{SampleTime, StageOptions};
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 use std::{
@@ -34,7 +35,7 @@ pub(super) fn measured(py: Python<'_>, asked: &SampleArguments, stage: &Path, in
     let what = options(asked)?;
     let time = asked.frame.map_or(SampleTime::Start, SampleTime::Code);
     let stage_options = StageOptions { time, subtree: asked.prim.clone(), ..StageOptions::default() };
-    let loaded = Stage::open(py, stage, &stage_options)?.load(py, &stage_options, interrupted)?;
+    let loaded = Stage::open(py, stage, &[], &stage_options)?.load(py, &stage_options, interrupted)?;
     py.detach(|| {
         let reading = reading(&loaded.scene, &what, asked.quiet, interrupted)?;
         let diagnostics: Vec<Diagnostic> = loaded.diagnostics.iter().chain(&reading.diagnostics).cloned().collect();

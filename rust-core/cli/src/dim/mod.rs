@@ -33,7 +33,7 @@ pub(super) fn dim(py: Python<'_>, options: &DimOptions, interrupted: &'static At
     if let Some(output) = &options.output {
         let factors = dimmed(&lamps, &solution);
         let time = options.measuring.frame.map_or(SampleTime::Start, SampleTime::Code);
-        put(output, stage.dimmed(py, &factors, time, output)?.as_bytes())?;
+        put(output, stage.usd("output")?.dimmed(py, &factors, time, output)?.as_bytes())?;
     }
     show(options, &problem, &lamps, &solution);
     Ok(i32::from(!solution.meets_all()))

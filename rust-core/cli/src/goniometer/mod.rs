@@ -14,6 +14,7 @@ use super::{
     progress::Reporter,
     render::{MOST_WARNINGS, stage_options},
     share::share,
+    stage::Stage,
 };
 use gonio::{
     Diagnostic, Error, Result,
@@ -26,7 +27,7 @@ use gonio_formats::photometry::{
     polar_diagram,
 };
 use gonio_simd::Execution;
-use gonio_usd::{SampleTime, Stage};
+use gonio_usd::SampleTime;
 use pyo3::prelude::*;
 use std::{
     sync::atomic::{AtomicBool, Ordering},
@@ -42,7 +43,7 @@ pub(super) fn goniometer(py: Python<'_>, options: &GoniometerOptions, interrupte
     let mut stage_options = stage_options(&options.stage)?;
     stage_options.time = options.frame.map_or(SampleTime::Start, SampleTime::Code);
     stage_options.subtree = Some(options.luminaire.clone());
-    let stage = Stage::open(py, &options.stage.stage, &stage_options)?;
+    let stage = Stage::open(py, &options.stage.stage, &options.stage.state, &stage_options)?;
     let placed = stage.placed(py, &options.luminaire, stage_options.time, "luminaire")?;
     let frame = Frame::of(&placed, options.down.vector(), options.c0.vector(), &Origin::new(&options.luminaire))?;
     let mut what = asked(options, frame)?;

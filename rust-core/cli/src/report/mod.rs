@@ -22,6 +22,7 @@ use super::{
     messages::say,
     progress::Reporter,
     render::{MOST_WARNINGS, stage_options},
+    stage::{Stage, light_model},
 };
 use gonio::{
     Diagnostic, Error, Result, Severity,
@@ -30,7 +31,7 @@ use gonio::{
     output::FalseColourScale,
     scene::Integrator,
 };
-use gonio_usd::{Loaded, SampleTime, Stage, camera::choose, meter::axes};
+use gonio_usd::{Loaded, SampleTime, camera::choose, meter::axes};
 use pyo3::prelude::*;
 use schedule::Schedule;
 use std::sync::{Arc, atomic::AtomicBool};
@@ -44,7 +45,7 @@ pub(super) fn report(py: Python<'_>, options: &ReportOptions, interrupted: &'sta
     check_targets([&options.output])?;
     let mut stage_options = stage_options(&options.stage)?;
     stage_options.time = options.frame.map_or(SampleTime::Start, SampleTime::Code);
-    let stage = Stage::open(py, &options.stage.stage, &stage_options)?;
+    let stage = Stage::open(py, &options.stage.stage, &options.stage.state, &stage_options)?;
     author_grids(py, &stage, &options.grids, None)?;
     let loaded = stage.load(py, &stage_options, interrupted)?;
     let today = head::today(py).map_err(|error| Error::Internal(error.to_string()))?;
@@ -71,6 +72,7 @@ fn run(
     interrupted: &'static AtomicBool,
 ) -> Result<i32> {
     daylight::add(&options.daylight, &mut loaded, options.stage.strict, options.quiet)?;
+    light_model(&options.stage.stage, &mut loaded, options.quiet);
     let cameras = cameras(options, &loaded)?;
     let mut diagnostics = loaded.diagnostics.clone();
     let (pictures, compiled) = pictures::pictures(options, &mut loaded, &cameras, denoiser, interrupted, &mut diagnostics)?;
