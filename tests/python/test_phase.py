@@ -60,7 +60,7 @@ def test_what_only_scatters_vanishes_in_even_light(name):
     box(scene, (-1.0, -1.0, -1.0), (1.0, 1.0, 1.0), scattering=(0.5, 1.0, 4.0), **PHASES[name])
     # Another one overlaps, so that registers have two kinds.
     box(scene, (-0.5, -0.5, -3.0), (0.7, 0.5, 1.5), scattering=2.0, anisotropy=0.6)
-    found, error = seen(scene, 256)
+    found, error = seen(scene, 1024)
     assert found == pytest.approx([1.0] * 3, abs=0.01) and error < 0.003
 
 

@@ -26,6 +26,11 @@ impl Fitted {
         Self { size, groups: groups.par_iter().map(pack).collect() }
     }
 
+    /// Groups whose light takes no room.
+    pub(super) fn bare(groups: &[&[f32]], size: [usize; 2]) -> Self {
+        Self { size, groups: groups.iter().map(|values| (Steps::of(values, PER_STOP[0]), Vec::new())).collect() }
+    }
+
     fn bytes(&self) -> usize {
         self.groups.iter().map(|(_, bytes)| bytes.len()).sum()
     }

@@ -37,6 +37,9 @@ pub struct Page {
     pub error: f64,
 }
 
+/// Bytes by which a group's numbers may be longer than foreseen.
+const SLACK: usize = 64;
+
 impl Page {
     /// The error where there is room enough.
     pub const FINE: f64 = 0.004;
@@ -50,10 +53,13 @@ pub fn page(picture: &Picture, still: impl FnOnce(&[f32], [usize; 2]) -> Result<
     picture.check()?;
     let still = still_of(picture, still)?;
     let mut parts = parts(picture, &still);
-    let fixed = expanded(TEMPLATE, &parts).len();
-    // Base 64 takes four bytes for three; tags and numbers of the groups take some more.
-    let room = picture.limit.saturating_sub(fixed + 400 * picture.groups.len()) / 4 * 3;
     let groups: Vec<&[f32]> = picture.groups.iter().map(|group| group.light.as_slice()).collect();
+    let bare = Fitted::bare(&groups, picture.size);
+    parts.insert("data".into(), data(picture, &bare));
+    parts.insert("lights".into(), lights(&bare));
+    let fixed = expanded(TEMPLATE, &parts).len();
+    // Base 64 takes four bytes for three; numbers of the groups may take some more.
+    let room = picture.limit.saturating_sub(fixed + SLACK * picture.groups.len()) / 4 * 3;
     let fitted = fitted(&groups, picture.size, room)?;
     parts.insert("data".into(), data(picture, &fitted));
     parts.insert("lights".into(), lights(&fitted));

@@ -42,7 +42,7 @@ pub(crate) struct DimOptions {
     #[arg(long, value_name = "GROUP=LEVEL|equal")]
     pub(crate) near: Vec<String>,
     /// Keep so many standard errors away from each limit; with 2 a target that can be met is met beyond doubt.
-    #[arg(long, value_name = "COUNT", default_value_t = 0.0, value_parser = errors)]
+    #[arg(long, value_name = "COUNT", default_value_t = 0.0, allow_hyphen_values = true, value_parser = errors)]
     pub(crate) errors: f64,
     /// Write a layer over the stage that dims its lights so.
     #[arg(long, short = 'o', value_name = "FILE.usda")]
