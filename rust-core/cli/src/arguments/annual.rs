@@ -1,7 +1,10 @@
 //! What `gonio annual` and `gonio annual-metrics` take.
 
+use super::measure::GridArguments;
 use super::number::{count, finite, mebibytes};
-use super::{GridArguments, StageArguments, TextureArguments, WorkArguments};
+use super::stage::StageArguments;
+use super::texture::TextureArguments;
+use super::work::WorkArguments;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 

@@ -1,6 +1,6 @@
 //! What `gonio dim` takes.
 
-use super::MeasuringArguments;
+use super::measure::MeasuringArguments;
 use super::number::finite;
 use clap::Args;
 use std::path::PathBuf;

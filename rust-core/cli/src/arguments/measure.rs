@@ -1,7 +1,12 @@
 //! What `gonio measure` takes; it shares most with `gonio dim`, and grids with `gonio report`.
 
+use super::daylight::DaylightArguments;
+use super::falsecolor::ScaleArguments;
+use super::integrator::IntegratorArgument;
 use super::number::{count, finite};
-use super::{DaylightArguments, IntegratorArgument, ScaleArguments, StageArguments, TextureArguments, WorkArguments};
+use super::stage::StageArguments;
+use super::texture::TextureArguments;
+use super::work::WorkArguments;
 use clap::Args;
 use std::path::PathBuf;
 

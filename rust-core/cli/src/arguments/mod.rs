@@ -13,6 +13,7 @@ mod farm;
 mod glare;
 mod goniometer;
 mod info;
+mod integrator;
 mod map;
 mod measure;
 mod number;
@@ -41,6 +42,7 @@ pub(super) use farm::FarmArguments;
 pub(super) use glare::GlareArguments;
 pub(super) use goniometer::GoniometerOptions;
 pub(super) use info::InfoOptions;
+pub(super) use integrator::IntegratorArgument;
 pub(super) use map::MapArguments;
 pub(super) use measure::{GridArguments, MeasureOptions, MeasuringArguments};
 pub(super) use output::OutputArguments;
@@ -57,10 +59,9 @@ pub(super) use work::WorkArguments;
 
 use annual::{ANNUAL_EXAMPLES, ANNUAL_METRICS_EXAMPLES};
 use bsdf::BSDF_EXAMPLES;
-use clap::{Parser, Subcommand, ValueEnum};
+use clap::{Parser, Subcommand};
 use client_page::SHARE_EXAMPLES;
 use dim::DIM_EXAMPLES;
-use gonio::scene::Integrator;
 use goniometer::GONIOMETER_EXAMPLES;
 use map::MAP_EXAMPLES;
 use measure::MEASURE_EXAMPLES;
@@ -197,27 +198,4 @@ pub(super) enum Command {
     Bench(BenchOptions),
     /// Write what a shell needs to complete gonio's options.
     Completion(CompletionOptions),
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(super) enum IntegratorArgument {
-    /// Path tracing.
-    Path,
-    /// The same, stopped after direct light.
-    Direct,
-    /// Direct light without noise, mirrors and clear glass; --max-bounces is their depth.
-    Whitted,
-    /// Light tracing: paths from the lamps alone. In mirrors and through clear glass lamps are seen, and nothing else.
-    Light,
-}
-
-impl From<IntegratorArgument> for Integrator {
-    fn from(argument: IntegratorArgument) -> Self {
-        match argument {
-            IntegratorArgument::Path => Self::Path,
-            IntegratorArgument::Direct => Self::Direct,
-            IntegratorArgument::Whitted => Self::Whitted,
-            IntegratorArgument::Light => Self::Light,
-        }
-    }
 }

@@ -1,7 +1,11 @@
 //! What `gonio report` takes.
 
+use super::daylight::DaylightArguments;
+use super::measure::GridArguments;
 use super::number::{count, finite};
-use super::{DaylightArguments, GridArguments, StageArguments, TextureArguments, WorkArguments};
+use super::stage::StageArguments;
+use super::texture::TextureArguments;
+use super::work::WorkArguments;
 use clap::Args;
 use std::path::PathBuf;
 

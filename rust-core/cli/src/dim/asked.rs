@@ -2,7 +2,7 @@
 
 use super::{
     groups::{LightGroup, numbers},
-    told,
+    told::told,
 };
 use crate::arguments::DimOptions;
 use gonio::{

@@ -1,6 +1,6 @@
 //! What each group brings to the points: one measurement a group, with all other light put out.
 
-use super::{asked::Asked, groups::LightGroup, told};
+use super::{asked::Asked, groups::LightGroup, told::told};
 use crate::{
     arguments::MeasuringArguments,
     measure::{evaluated, most_warnings},

@@ -1,6 +1,6 @@
 //! A stage's light groups, their power, and the levels that they may have.
 
-use super::note;
+use super::told::note;
 use crate::arguments::DimOptions;
 use gonio::{
     Error, Result,

@@ -4,20 +4,22 @@ mod asked;
 mod contributions;
 mod groups;
 mod shown;
+mod told;
 
 use super::{
     arguments::DimOptions,
     file::{check_ending, check_targets, print_path, put},
     measure::loaded,
-    messages::{print, say},
+    messages::print,
 };
 use asked::Asked;
-use gonio::{Error, Result};
-use gonio_dimming::{DimmingError, Problem, Solution};
+use gonio::Result;
+use gonio_dimming::{Problem, Solution};
 use gonio_usd::{Loaded, SampleTime};
 use groups::LightGroup;
 use pyo3::prelude::*;
 use std::sync::atomic::AtomicBool;
+use told::told;
 
 /// Measures the groups, solves, and writes what was asked for; the status is 1 where a target is not met.
 pub(super) fn dim(py: Python<'_>, options: &DimOptions, interrupted: &'static AtomicBool) -> Result<i32> {
@@ -77,19 +79,4 @@ fn show(options: &DimOptions, problem: &Problem, groups: &[LightGroup], solution
     }
     shown::lines(groups, solution).iter().for_each(|line| print(line));
     options.output.iter().filter(|_| !options.measuring.quiet).for_each(|output| print_path(output));
-}
-
-/// A dimming's error as that of an option.
-fn told(option: &str, error: DimmingError) -> Error {
-    match error {
-        DimmingError::Solver(problem) => Error::Internal(problem),
-        other => Error::setting(option, other.to_string()),
-    }
-}
-
-/// A note, unless nothing but answers is wanted.
-fn note(options: &DimOptions, text: &str) {
-    if !options.measuring.quiet {
-        say(text);
-    }
 }
