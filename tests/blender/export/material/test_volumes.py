@@ -98,8 +98,9 @@ def test_each_shader_in_a_box(kind, tmp_path):
     cube(fog("Fog", node, **inputs), (0, 0, 0.2), (4, 4, 2))
     floor()
     lamp((1.2, 0.6, 2.5))
-    # Cycles leaves the blue of fire below zero, which the Blackbody node holds at zero.
-    alike(tmp_path, mean=0.02 if kind == "blackbody" else 0.015)
+    # Cycles leaves the blue of fire below zero, which the Blackbody node holds at zero. What scatters straight on above all has bright samples in
+    # dark blocks.
+    alike(tmp_path, mean=0.02 if kind == "blackbody" else 0.015, block=0.25 if kind == "ocean" else 0.06)
 
 
 @pytest.mark.blender
