@@ -44,7 +44,7 @@ def main() -> None:
     scene = gonio.Scene()
     meadow = scene.add_material(base_color=(0.06, 0.1, 0.03), specular_weight=0.0)
     quad(scene, [(-9e3, 0, 9e3), (9e3, 0, 9e3), (9e3, 0, -9e3), (-9e3, 0, -9e3)], meadow)
-    place = [[1, 0, 0, -400.0], [0, 1, 0, 250.0], [0, 0, 1, -300.0], [0, 0, 0, 1]]
+    place = [[1.0, 0.0, 0.0, -400.0], [0.0, 1.0, 0.0, 250.0], [0.0, 0.0, 1.0, -300.0], [0.0, 0.0, 0.0, 1.0]]
     # Droplets scatter nearly all that they meet, forwards.
     scene.add_volume(densities(), scattering=0.06, anisotropy=0.8, voxel=VOXEL, transform=place, name="cloud")
     scene.add_daylight(gonio.daylight(47.0, 8.0, "2026-06-21T10:30+02:00", ground=0.1), up="Y")
