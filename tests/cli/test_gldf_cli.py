@@ -48,7 +48,7 @@ def write(path, product=PRODUCT, **files):
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
         archive.writestr("product.xml", product)
         archive.writestr("ldc/lamp.ldt", photometry())
-        archive.writestr("spectrum/power.txt", "380;1\n480;1.5\n580;2\n680;1.5\n780;1\n")
+        archive.writestr("spectrum/power.txt", "".join(f"{nm};{1 + (nm > 560)}\n" for nm in range(380, 781, 20)))
         for name, content in files.items():
             archive.writestr(name, content)
     return path
@@ -141,7 +141,7 @@ def test_archives_without_a_product(run, tmp_path):
 
 def test_spectra_of_a_product(run, lamp):
     found = json.loads(run("spectrum", lamp, "--json").stdout)
-    assert (found["points"], found["first_nm"], found["last_nm"]) == (5, 380, 780)
+    assert (found["points"], found["first_nm"], found["last_nm"]) == (21, 380, 780)
 
 
 def test_roads_take_a_variant(run, lamp, tmp_path):
