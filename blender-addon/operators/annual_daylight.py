@@ -88,10 +88,6 @@ class GONIO_OT_annual_daylight(Beside, bpy.types.Operator):
         self.report({"INFO"}, f"{len(found)} grid{'s' * (len(found) > 1)} calculated; plans are images of the file")
         return {"FINISHED"}
 
-    def _fail(self, error):
-        self.report({"ERROR"}, str(error) or type(error).__name__)
-        return {"CANCELLED"}
-
 
 def _north(context) -> float:
     """Degrees by which the world's north is turned."""

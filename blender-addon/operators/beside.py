@@ -21,6 +21,12 @@ class Beside:
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
+    def _fail(self, problem, name=""):
+        """Says what went wrong, with what."""
+        words = str(problem) or type(problem).__name__
+        self.report({"ERROR"}, f"{name}: {words}" if name else words)
+        return {"CANCELLED"}
+
     def _tell(self, context):
         """Says how far the work is, from time to time."""
 

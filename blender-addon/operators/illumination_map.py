@@ -136,7 +136,3 @@ class GONIO_OT_illumination_map(Beside, bpy.types.Operator):
         else:
             self.report({"INFO"}, f"{lines[0]}{rest}")
         return {"FINISHED"}
-
-    def _fail(self, problem):
-        self.report({"ERROR"}, str(problem) or type(problem).__name__)
-        return {"CANCELLED"}

@@ -60,10 +60,6 @@ class GONIO_OT_measure_grids(Beside, bpy.types.Operator):
         self.report({"INFO"}, f"{count} grid{'s' * (count > 1)} measured; values are in the text 'Gonio grids.csv'")
         return {"FINISHED"}
 
-    def _fail(self, error):
-        self.report({"ERROR"}, str(error) or type(error).__name__)
-        return {"CANCELLED"}
-
 
 def meter_of(context):
     """A meter of the scene with its grids."""

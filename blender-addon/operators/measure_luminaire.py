@@ -207,11 +207,6 @@ class GONIO_OT_measure_luminaire(Beside, bpy.types.Operator):
             self.report({"WARNING"}, f"{luminaire.name}: the error is still above {self.error:.2g} % after {reading.rays:,} rays")
         return {"FINISHED"}
 
-    def _fail(self, problem, name=""):
-        words = str(problem) or type(problem).__name__
-        self.report({"ERROR"}, f"{name}: {words}" if name else words)
-        return {"CANCELLED"}
-
 
 def _add_lamp(scene, luminaire, file, reading) -> None:
     """Puts a lamp that shines as the luminaire does beside it, along C0: within it, its parts would stand in the light's way."""

@@ -220,7 +220,7 @@ def test_overlapping_uv_maps_are_told_and_mapped():
     module = importlib.import_module("gonio_extension.operators.illumination_map")
     said = []
     operator = module.GONIO_OT_illumination_map
-    fields = {name: vars(operator)[name] for name in ("execute", "_publish", "_fail", "_options")}
+    fields = {name: vars(operator)[name] for name in ("execute", "_publish", "_options")}
     usual = {"target": "IMAGE", "quantity": "ILLUMINANCE", "side": "BRIGHTER", "width": 8, "height": 8, "margin": 0, "texel": 0.0}
     usual |= {"output_name": "", "error": 0.0, "paths": 0.5, "_asked": False, "report": lambda self, kind, text: said.append((kind, text))}
     assert type("Running", operator.__bases__[:1], {**fields, **usual})().execute(bpy.context) == {"FINISHED"}
@@ -243,7 +243,7 @@ def test_it_is_mapped_beside_blender_until_escape():
     module = importlib.import_module("gonio_extension.operators.illumination_map")
     operator = module.GONIO_OT_illumination_map
     said, timers, texts = [], [], []
-    names = ("_arrived", "_publish", "_fail", "_options", "execute")
+    names = ("_arrived", "_publish", "_options", "execute")
     fields = {name: vars(operator)[name] for name in names} | {"report": lambda self, kind, text: said.append(text)}
     usual = {"target": "IMAGE", "quantity": "ILLUMINANCE", "side": "BRIGHTER", "width": 8, "height": 8, "margin": 0, "texel": 0.0}
     running = type("Running", operator.__bases__[:1], {**fields, **usual, "output_name": "lx", "error": 0.0, "_asked": True, "_worker": None})()

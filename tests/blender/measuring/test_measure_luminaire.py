@@ -275,7 +275,7 @@ def test_it_is_measured_beside_blender_until_escape(tmp_path: Path):
     module = importlib.import_module("gonio_extension.operators.measure_luminaire")
     operator = module.GONIO_OT_measure_luminaire
     latest = importlib.import_module("gonio_extension.measuring").latest
-    names = ("_tell", "_arrived", "_publish", "_fail", "_options", "_luminaire", "_check", "execute")
+    names = ("_tell", "_arrived", "_publish", "_options", "_luminaire", "_check", "execute")
     said, timers, texts = [], [], []
     fields = {name: vars(operator)[name] for name in names} | {"report": lambda self, kind, text: said.append(text)}
     usual = {"kind": "SELECTION", "c_step": 0.2617994, "g_step": 0.0872665, "symmetry": "AUTO", "error": 0.0, "seed": 0, "watts": 0.0}
