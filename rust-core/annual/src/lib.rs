@@ -18,6 +18,7 @@ mod group;
 mod metrics;
 mod product;
 mod schedule;
+mod series;
 pub mod sky;
 mod sun;
 #[cfg(test)]
@@ -34,5 +35,6 @@ pub use group::{Blinds, Group};
 pub use metrics::{En17037, Grid, GridErrors, Level, Method, Point};
 pub use product::Panels;
 pub use schedule::Schedule;
+pub use series::Series;
 pub use sun::{SUN_ANGLE_DEG, Sun};
 pub use year::{Step, Year};

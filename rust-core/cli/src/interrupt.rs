@@ -20,6 +20,12 @@ pub(super) fn install() {
     });
 }
 
+/// Whether nothing has asked to end; asked now and then while something runs without the interpreter's lock.
+pub(super) fn goes_on(interrupted: &AtomicBool) -> bool {
+    let heard = Python::attach(|py| py.check_signals()).is_ok();
+    heard && !interrupted.load(Ordering::Relaxed)
+}
+
 fn installed(py: Python<'_>) -> PyResult<()> {
     let signal = py.import("signal")?;
     let mut flags: Vec<(u8, &'static AtomicBool)> = Vec::new();

@@ -4,6 +4,7 @@ use super::{
     arguments::MapArguments,
     daylight, falsecolor,
     file::{check_ending, check_targets, ending, print_path, put, write_or_keep},
+    interrupt::goes_on,
     messages::list,
     messages::print,
     messages::say,
@@ -35,7 +36,7 @@ use serde_json::{Value, json};
 use std::{
     collections::HashMap,
     path::{Path, PathBuf},
-    sync::atomic::{AtomicBool, Ordering},
+    sync::atomic::AtomicBool,
     time::Instant,
 };
 
@@ -130,8 +131,7 @@ fn traced(
         let fraction = done as f64 / batches;
         let left = (done > 0).then(|| start.elapsed().mul_f64((1.0 - fraction).max(0.0) / fraction));
         reporter.tell(fraction, &format!("{:.1} million paths at most", paths * 1e-6), left, &format!("{speed:.2} million a second"));
-        let heard = Python::attach(|py| py.check_signals()).is_ok();
-        heard && !interrupted.load(Ordering::Relaxed)
+        goes_on(interrupted)
     };
     let found =
         illumination_maps(scene, compiled, wanted, Execution::detect(), &mut Watch { cancel: interrupted, progress: &mut progress });

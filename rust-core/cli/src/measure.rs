@@ -5,6 +5,7 @@ use super::{
     daylight, falsecolor,
     file::{check_ending, check_targets, print_path, put},
     glare::coverage_json,
+    interrupt::goes_on,
     messages::list,
     messages::print,
     progress::Reporter,
@@ -24,7 +25,7 @@ use pyo3::prelude::*;
 use serde_json::{Value, json};
 use std::{
     path::{Path, PathBuf},
-    sync::atomic::{AtomicBool, Ordering},
+    sync::atomic::AtomicBool,
 };
 
 /// Measures what stage and options ask for.
@@ -113,8 +114,7 @@ pub(super) fn evaluated(
 ) -> Result<Measurements> {
     let mut progress = |progress: &gonio::render::Progress| {
         reporter.show(progress);
-        let heard = Python::attach(|py| py.check_signals()).is_ok();
-        heard && !interrupted.load(Ordering::Relaxed)
+        goes_on(interrupted)
     };
     let found = evaluate(scene, Execution::detect(), &mut Watch { previous, cancel: interrupted, progress: &mut progress });
     reporter.clear();

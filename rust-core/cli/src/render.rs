@@ -181,10 +181,6 @@ pub(super) fn stage_options(arguments: &StageArguments) -> Result<StageOptions> 
         let problem = || Error::setting("purposes", format!("'{token}' was found, expected default, render, proxy or guide"));
         Purpose::from_token(token).ok_or_else(problem)
     };
-    let variant = |text: &String| {
-        let problem = || Error::setting("variant", format!("'{text}' was found, expected /Prim{{set=variant}}"));
-        VariantSelection::parse(text).ok_or_else(problem)
-    };
     Ok(StageOptions {
         purposes: match arguments.purposes.as_slice() {
             [] => None,
@@ -198,7 +194,7 @@ pub(super) fn stage_options(arguments: &StageArguments) -> Result<StageOptions> 
             ComplexityArgument::Auto => Complexity::Auto,
         },
         population_mask: arguments.mask.clone(),
-        variants: arguments.variant.iter().map(variant).collect::<Result<_>>()?,
+        variants: variants("variant", &arguments.variant)?,
         session_layer: arguments.session_layer.clone(),
         render_settings: arguments.settings.clone(),
         render_pass: arguments.render_pass.clone(),
@@ -210,6 +206,15 @@ pub(super) fn stage_options(arguments: &StageArguments) -> Result<StageOptions> 
         lenient: arguments.lenient,
         ..StageOptions::default()
     })
+}
+
+/// The variants that an option chooses.
+pub(super) fn variants(option: &str, texts: &[String]) -> Result<Vec<VariantSelection>> {
+    let variant = |text: &String| {
+        let problem = || Error::setting(option, format!("'{text}' was found, expected /Prim{{set=variant}}"));
+        VariantSelection::parse(text).ok_or_else(problem)
+    };
+    texts.iter().map(variant).collect()
 }
 
 /// What the command line adds to a stage: daylight, view and settings. `product` is the render product whose picture it is.

@@ -16,7 +16,7 @@ use gonio::{
     sky::{Frame, SkyModel},
 };
 use gonio_annual::{
-    Chunk, Grid, Group, Point, Schedule, Settings, Year, evaluate,
+    Chunk, Grid, Group, Point, Schedule, Series, Settings, Year, evaluate,
     sky::{Model, SkyOptions},
 };
 use gonio_simd::Execution;
@@ -31,9 +31,7 @@ const MEMORY: usize = 256 << 20;
 pub(crate) struct AnnualReading {
     place: AnnualGrid,
     grid: Grid,
-    steps: usize,
-    /// All light and direct light, points × steps.
-    series: [Vec<f32>; 2],
+    series: Series,
 }
 
 #[pymethods]
@@ -85,12 +83,12 @@ impl AnnualReading {
     /// Illuminances in lx of sky and sun, with blinds as they are operated: points × steps of the weather file.
     #[getter]
     fn total(&self) -> Array {
-        self.array(0)
+        self.rows(&self.series.total)
     }
     /// Illuminances in lx straight from the sun, blinds open: points × steps.
     #[getter]
     fn direct(&self) -> Array {
-        self.array(1)
+        self.rows(self.series.direct.as_deref().unwrap_or_default())
     }
     fn __repr__(&self) -> String {
         let Grid { sda_300_50, mean_lx, points, .. } = &self.grid;
@@ -99,8 +97,8 @@ impl AnnualReading {
 }
 
 impl AnnualReading {
-    fn array(&self, which: usize) -> Array {
-        Array::rows(self.series[which].iter().copied().map(f64::from).collect(), self.steps)
+    fn rows(&self, values: &[f32]) -> Array {
+        Array::rows(values.iter().copied().map(f64::from).collect(), self.series.steps)
     }
 }
 
@@ -181,17 +179,11 @@ fn model(name: &str) -> PyResult<Model> {
 
 /// A grid's year.
 fn reading(place: AnnualGrid, group: Group, (year, schedule): (&Year, &Schedule), settings: &Settings) -> Result<AnnualReading, Error> {
-    let (points, steps) = (place.positions.len(), year.steps.len());
-    let mut series = [vec![0.0; points * steps], vec![0.0; points * steps]];
+    let mut series = Series::new(place.positions.len(), year.steps.len());
     let mut take = |chunk: &Chunk<'_>| {
-        for (series, values) in series.iter_mut().zip([Some(chunk.total), chunk.direct]) {
-            let rows = values.into_iter().flat_map(|values| values.chunks_exact(chunk.steps.len()));
-            for (row, values) in series.chunks_exact_mut(steps).zip(rows) {
-                chunk.steps.iter().zip(values).for_each(|(step, value)| row[*step] = *value);
-            }
-        }
+        series.take(chunk);
         true
     };
     let grid = evaluate(year, schedule, &[group], settings, &mut take).map_err(told)?.ok_or(Error::Cancelled)?;
-    Ok(AnnualReading { place, grid, steps, series })
+    Ok(AnnualReading { place, grid, series })
 }

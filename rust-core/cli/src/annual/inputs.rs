@@ -123,6 +123,5 @@ pub(super) fn sky(options: &YearArguments) -> Result<SkyOptions> {
             return Err(Error::setting("sky", "hosek-wilkie knows clear skies alone, expected perez or cie1 to cie16"));
         }
     };
-    let rotation_deg = -options.north;
-    Ok(SkyOptions { model, ground: options.ground, rotation_deg, dew_point_c: options.dew_point, ..SkyOptions::default() })
+    Ok(SkyOptions { model, ground: options.ground, dew_point_c: options.dew_point, ..SkyOptions::default() })
 }

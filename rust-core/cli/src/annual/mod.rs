@@ -12,15 +12,15 @@ use super::{
     messages::{print, say},
 };
 use gonio::{Error, Result, annual::told, threads::available_threads};
-use gonio_annual::{Chunk, Grid, Settings, Year, evaluate};
+use gonio_annual::{Chunk, Grid, Series, Settings, Year, evaluate};
 use inputs::{Inputs, Named};
 use serde_json::{Value, json};
-use series::Series;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Reads weather and coefficients, calculates every grid, and writes what was asked for.
 pub(super) fn annual_metrics(options: &AnnualMetricsOptions, interrupted: &AtomicBool) -> Result<i32> {
-    let settings = settings(&options.year, options.threads)?;
+    let mut settings = settings(&options.year, options.threads)?;
+    settings.sky.rotation_deg = -options.year.north;
     if let Some(folder) = &options.year.output {
         check_targets(inputs::grid_names(options).iter().flat_map(|name| series::paths(folder, name)).collect::<Vec<_>>().iter())?;
     }
@@ -44,14 +44,14 @@ fn tell_doubts(options: &YearArguments, year: &Year) {
     year.doubts.iter().for_each(|doubt| say(&format!("warning: {}: {doubt}", options.weather.display())));
 }
 
-/// One grid, whose series is written if that is asked for; with the mean of its points by step.
+/// One grid, and its series where that was asked for and so written.
 fn calculate(
     options: &YearArguments,
     inputs: &Inputs,
     named: &Named,
     settings: &Settings,
     interrupted: &AtomicBool,
-) -> Result<(Grid, Vec<f32>)> {
+) -> Result<(Grid, Option<Series>)> {
     let mut series = options.output.is_some().then(|| Series::new(named.groups[0].open.points, inputs.year.steps.len()));
     let mut take = |chunk: &Chunk<'_>| {
         series.iter_mut().for_each(|series| series.take(chunk));
@@ -59,12 +59,11 @@ fn calculate(
     };
     let grid = evaluate(&inputs.year, &inputs.schedule, &named.groups, settings, &mut take).map_err(told)?;
     let grid = grid.ok_or(Error::Cancelled)?;
-    let means = series.as_ref().map(Series::means).unwrap_or_default();
-    if let (Some(folder), Some(series)) = (&options.output, series) {
-        let written = series.write(folder, &named.name, &grid)?;
+    if let (Some(folder), Some(series)) = (&options.output, &series) {
+        let written = series::write(series, folder, &named.name, &grid)?;
         written.iter().filter(|_| !options.json).for_each(|path| print_path(path));
     }
-    Ok((grid, means))
+    Ok((grid, series))
 }
 
 fn settings(options: &YearArguments, threads: u32) -> Result<Settings> {

@@ -8,26 +8,27 @@ use super::{
 use crate::{
     arguments::AnnualOptions,
     file::{check_targets, print_path},
+    interrupt::goes_on,
     measure::author_grids,
     messages::{list, print},
     progress::Reporter,
-    render::{MOST_WARNINGS, stage_options},
+    render::{MOST_WARNINGS, stage_options, variants},
     stage::Stage,
 };
 use gonio::{
-    Diagnostic, Error, Result,
+    Diagnostic, Result,
     annual::{AnnualGrid, AnnualTask, trace},
     measure::{MOST_BOUNCES, Watch},
     render::Progress,
     scene::Scene,
     sky::Frame,
 };
-use gonio_annual::{Group, Settings, sky::SkyOptions};
+use gonio_annual::Group;
 use gonio_simd::Execution;
-use gonio_usd::{Loaded, SampleTime, VariantSelection, daylight::up_axis};
+use gonio_usd::{Loaded, SampleTime, daylight::up_axis};
 use pyo3::prelude::*;
 use serde_json::{Value, json};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 /// Traces the stage's grids and calculates their year.
 pub(crate) fn annual(py: Python<'_>, options: &AnnualOptions, interrupted: &'static AtomicBool) -> Result<i32> {
@@ -69,8 +70,7 @@ fn traced(
 ) -> Result<(Vec<Group>, Vec<Diagnostic>)> {
     let mut progress = |progress: &Progress| {
         reporter.show(progress);
-        let heard = Python::attach(|py| py.check_signals()).is_ok();
-        heard && !interrupted.load(Ordering::Relaxed)
+        goes_on(interrupted)
     };
     let mut watch = Watch { previous: None, cancel: interrupted, progress: &mut progress };
     let found = trace(scene, grids, task, Execution::detect(), &mut watch);
@@ -79,13 +79,10 @@ fn traced(
 }
 
 /// The stage with some more variants chosen.
-fn load(py: Python<'_>, options: &AnnualOptions, variants: &[String], interrupted: &'static AtomicBool) -> Result<Loaded> {
+fn load(py: Python<'_>, options: &AnnualOptions, more: &[String], interrupted: &'static AtomicBool) -> Result<Loaded> {
     let mut stage_options = stage_options(&options.stage)?;
     stage_options.time = SampleTime::Start;
-    for text in variants {
-        let problem = || Error::setting("closed-variant", format!("'{text}' was found, expected /Prim{{set=variant}}"));
-        stage_options.variants.push(VariantSelection::parse(text).ok_or_else(problem)?);
-    }
+    stage_options.variants.extend(variants("closed-variant", more)?);
     let stage = Stage::open(py, &options.stage.stage, &options.stage.state, &stage_options)?;
     author_grids(py, &stage, &options.grids, None)?;
     let mut loaded = stage.load(py, &stage_options, interrupted)?;
@@ -104,13 +101,11 @@ fn load(py: Python<'_>, options: &AnnualOptions, variants: &[String], interrupte
 /// Calculates every grid, tells and writes.
 fn finish(options: &AnnualOptions, inputs: &Inputs, grids: &[AnnualGrid], interrupted: &AtomicBool) -> Result<i32> {
     let settings = settings(&options.year, options.work.threads)?;
-    // North is in the coefficients.
-    let settings = Settings { sky: SkyOptions { rotation_deg: 0.0, ..settings.sky }, ..settings };
     let mut found = Vec::new();
     for (named, traced) in inputs.grids.iter().zip(grids) {
-        let (grid, means) = calculate(&options.year, inputs, named, &settings, interrupted)?;
-        if let Some(folder) = &options.year.output {
-            let written = pictures::draw(folder, &named.name, (&grid, traced), &inputs.year, &means)?;
+        let (grid, series) = calculate(&options.year, inputs, named, &settings, interrupted)?;
+        if let (Some(folder), Some(series)) = (&options.year.output, series) {
+            let written = pictures::draw(folder, &named.name, (&grid, traced), &inputs.year, &series.means())?;
             written.iter().filter(|_| !options.year.json).for_each(|path| print_path(path));
         }
         if !options.year.json {

@@ -4,6 +4,7 @@ use super::Loaded;
 use crate::{
     arguments::SampleArguments,
     daylight::number,
+    interrupt::goes_on,
     messages::list,
     progress::{Reporter, clock},
     render::MOST_WARNINGS,
@@ -21,11 +22,7 @@ use gonio_simd::Execution;
 use gonio_usd::{SampleTime, StageOptions};
 use pyo3::prelude::*;
 use serde_json::{Value, json};
-use std::{
-    path::Path,
-    sync::atomic::{AtomicBool, Ordering},
-    time::Duration,
-};
+use std::{path::Path, sync::atomic::AtomicBool, time::Duration};
 
 /// The longest time limit, in seconds.
 const LONGEST: f64 = 1e9;
@@ -85,8 +82,7 @@ fn reading(scene: &Scene, what: &Options, quiet: bool, interrupted: &AtomicBool)
     let mut reporter = Reporter::new(quiet);
     let mut progress = |progress: &Progress| {
         show(&mut reporter, progress, &what.stop);
-        let heard = Python::attach(|py| py.check_signals()).is_ok();
-        heard && !interrupted.load(Ordering::Relaxed)
+        goes_on(interrupted)
     };
     let reading = measure(scene, what, Execution::detect(), interrupted, &mut progress);
     reporter.clear();

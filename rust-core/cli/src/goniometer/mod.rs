@@ -9,6 +9,7 @@ use super::{
     arguments::{GoniometerOptions, SymmetryName},
     drawing,
     file::{check_ending, check_targets, ending, put},
+    interrupt::goes_on,
     messages::list,
     messages::print,
     progress::Reporter,
@@ -29,10 +30,7 @@ use gonio_formats::photometry::{
 use gonio_simd::Execution;
 use gonio_usd::SampleTime;
 use pyo3::prelude::*;
-use std::{
-    sync::atomic::{AtomicBool, Ordering},
-    time::Duration,
-};
+use std::{sync::atomic::AtomicBool, time::Duration};
 
 /// The longest time limit, in seconds.
 const LONGEST: f64 = 1e9;
@@ -119,8 +117,7 @@ fn measured(scene: &Scene, what: &Options, quiet: bool, interrupted: &AtomicBool
     let mut reporter = Reporter::new(quiet);
     let mut progress = |progress: &Progress| {
         show(&mut reporter, progress, what);
-        let heard = Python::attach(|py| py.check_signals()).is_ok();
-        heard && !interrupted.load(Ordering::Relaxed)
+        goes_on(interrupted)
     };
     let reading = measure(scene, what, Execution::detect(), interrupted, &mut progress);
     reporter.clear();

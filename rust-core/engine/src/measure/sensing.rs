@@ -21,6 +21,11 @@ const OTHER_SEED: u32 = 0x9e37_79b9;
 /// Parts of a block along its side; each is a net of the sampler's sequence itself.
 const PARTS: usize = 4;
 
+/// The seed of a round that is independent of others.
+pub(super) fn seed_of_round(seed: u32, round: u32) -> u32 {
+    seed ^ round.wrapping_mul(OTHER_SEED)
+}
+
 /// The settings of measurements: limits are for pictures' sake.
 pub(super) fn unlimited(settings: &Settings) -> Settings {
     Settings {
@@ -87,7 +92,7 @@ impl Sensing<'_> {
         let settings = Settings {
             resolution: table.resolution(),
             samples: samples.div_ceil((side * side) as u32).max(1),
-            seed: self.settings.seed ^ round.wrapping_mul(OTHER_SEED),
+            seed: seed_of_round(self.settings.seed, round),
             ..self.settings.clone()
         };
         let mut render = Render::sense(self.scene.clone(), table, &settings, self.execution, brought, round)?;

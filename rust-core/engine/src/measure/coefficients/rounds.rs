@@ -5,12 +5,11 @@ use crate::{
     camera::sampler::{BATCH, Runs, TILE, tile_place},
     compile::transport,
     error::Result,
+    measure::sensing::seed_of_round,
     transport::{SensorTable, SkyArrivals, Start, Tracer, Workspace},
 };
 use std::sync::{Mutex, PoisonError, atomic::Ordering};
 
-/// Makes seeds of rounds that are far apart.
-const OTHER_SEED: u32 = 0x9e37_79b9;
 /// The row of a slot whose pixel no sensor owns.
 const NOBODY: u32 = u32::MAX;
 
@@ -20,6 +19,8 @@ struct Layout {
     /// Samples of each pixel in a round.
     samples: u32,
     tiles: usize,
+    /// By patch, whether paths alone find it.
+    by_paths: Vec<bool>,
 }
 
 impl Layout {
@@ -28,7 +29,8 @@ impl Layout {
         let table = SensorTable::new(tracing.sensors, of_round as usize);
         let samples = of_round.div_ceil((table.side() * table.side()) as u32).max(1);
         let tiles = (table.resolution()[1] as usize).div_ceil(TILE);
-        Self { table, samples, tiles }
+        let by_paths = (0..tracing.task.patches).map(|patch| (tracing.task.place)(patch, [0.5; 2]).is_none()).collect();
+        Self { table, samples, tiles, by_paths }
     }
 
     /// By slot of a tile, the point that it belongs to.
@@ -76,7 +78,7 @@ fn trace_tile(
 ) {
     let mut transport = transport(tracing.scene, tracing.settings, tracing.execution, [0.0; 3], [0.0; 3]);
     transport.passes.illuminance = false;
-    transport.seed = tracing.settings.seed ^ (round as u32).wrapping_mul(OTHER_SEED);
+    transport.seed = seed_of_round(tracing.settings.seed, round as u32);
     transport.samples = layout.samples;
     let tracer = Tracer { tables: &tracing.scene.tables, start: Start::Sensors(&layout.table), transport };
     workspace.prepare(tracer.tables, &tracer.transport, false);
@@ -96,7 +98,7 @@ fn trace_tile(
             return;
         }
         if let Some(sky) = &workspace.deposits.sky {
-            add(sky, rows, first, tracing, &mut found);
+            add(sky, (rows, first), (tracing, layout), &mut found);
         }
         work.done.fetch_add(1, Ordering::Relaxed);
         work.rays.fetch_add(workspace.statistics.rays + workspace.statistics.shadow_rays - before, Ordering::Relaxed);
@@ -111,7 +113,7 @@ fn trace_tile(
 
 /// Adds what arrived to the patches that it came from: what was scattered to both sums, and to that of all light what comes straight from patches
 /// without places.
-fn add(sky: &SkyArrivals, rows: &[u32], first: u32, tracing: &Tracing<'_>, [all, scattered]: &mut [Vec<f64>; 2]) {
+fn add(sky: &SkyArrivals, (rows, first): (&[u32], u32), (tracing, layout): (&Tracing<'_>, &Layout), [all, scattered]: &mut [Vec<f64>; 2]) {
     let task = tracing.task;
     let [x, y, z] = &sky.direction;
     for entry in 0..sky.count {
@@ -120,10 +122,11 @@ fn add(sky: &SkyArrivals, rows: &[u32], first: u32, tracing: &Tracing<'_>, [all,
         };
         let patch = (task.patch_of)([x[entry], y[entry], z[entry]]);
         let (place, value) = ((row - first) as usize * task.patches + patch, f64::from(sky.value[entry]));
-        if !sky.is_direct(entry) {
+        let is_direct = sky.is_direct(entry);
+        if !is_direct {
             scattered[place] += value;
         }
-        if !sky.is_direct(entry) || (task.place)(patch, [0.5; 2]).is_none() {
+        if !is_direct || layout.by_paths[patch] {
             all[place] += value;
         }
     }
