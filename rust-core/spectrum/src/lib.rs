@@ -7,6 +7,8 @@
 //! assert_eq!(figures.white.expect("a white lamp").cct.round(), 3999.0);
 //! ```
 //!
+//! For spectral rendering: [`triples`] of wavelengths whose light is white together, [`upsampling`] of colours to spectra of reflectance.
+//!
 //! Wavelengths are in nanometres, power is per nanometre in any unit. A spectrum is summed at its own points, by the trapezoidal rule, as the CIE's
 //! tables in steps of 5 nm are; steps beyond 5 nm are divided linearly first. `data/README.md` names the tables and their licence.
 
@@ -19,6 +21,7 @@ mod check;
 mod drawing;
 mod figures;
 mod illuminant;
+mod integral;
 mod named;
 mod observer;
 mod read;
@@ -26,6 +29,9 @@ mod rendering;
 mod rendition;
 mod source;
 mod table;
+mod triples;
+mod upsampling;
+mod white;
 
 pub use alpha_opic::{AlphaOpic, OPSINS};
 pub use cct::{HIGHEST_CCT, LARGEST_DUV, LOWEST_CCT};
@@ -36,6 +42,8 @@ pub use read::read;
 pub use rendering::{Rendering, TOLERANCE};
 pub use rendition::{HueBin, Rendition};
 pub use source::Spectrum;
+pub use triples::{BinShares, Triples, triples};
+pub use upsampling::{REC709_TO_REC2020, Upsampling, upsampling};
 
 #[cfg(test)]
 mod tests;

@@ -11,7 +11,7 @@ use std::sync::LazyLock;
 /// How far a lamp may be from its reference in the CIE 1960 diagram (CIE 13.3, 5.3).
 pub const TOLERANCE: f64 = 5.4e-3;
 
-static SAMPLES: LazyLock<Table> = LazyLock::new(|| Table::new(include_str!("../data/samples.csv")));
+pub(crate) static SAMPLES: LazyLock<Table> = LazyLock::new(|| Table::new(include_str!("../data/samples.csv")));
 
 /// Figures of CIE 13.3. Values are not rounded to whole numbers.
 #[derive(Clone, Debug, PartialEq)]

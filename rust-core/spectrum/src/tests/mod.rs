@@ -3,3 +3,5 @@
 mod bad;
 mod figures;
 mod reading;
+mod triples;
+mod upsampling;
