@@ -15,14 +15,14 @@ pub const REC709_TO_REC2020: [[f32; 3]; 3] =
 /// Nodes along each of the table's three axes.
 const RESOLUTION: usize = 32;
 
-/// The first node of s; the last is 1 less this. At 0 and 1 coefficients are infinite.
-const EDGE: f32 = 1.0 / 1024.0;
+/// Added to components before they are divided, so that black is a grey; too small to change another.
+const TINY: f32 = 1e-30;
 
 /// The coefficients of colours.
 ///
 /// A colour's greatest component m has the value z, the next one (cyclic) x z, the one after it y z. The axes are x and y from 0 to 1, and
-/// s = √z / (√z + √(1 - z)) from `EDGE` to 1 - `EDGE`, all in even steps. Nodes hold coefficients times 2 s (1 - s): bounded, and for greys
-/// linear in s.
+/// s = √z / (√z + √(1 - z)) from [`Upsampling::EDGE`] to 1 less this, all in even steps. Nodes hold coefficients times 2 s (1 - s): bounded, and
+/// for greys linear in s.
 #[derive(Debug)]
 pub struct Upsampling {
     /// Nodes N along an axis.
@@ -39,8 +39,11 @@ pub fn upsampling() -> &'static Upsampling {
 }
 
 impl Upsampling {
+    /// The first node of s; the last is 1 less this. At 0 and 1 coefficients are infinite.
+    pub const EDGE: f32 = 1.0 / 1024.0;
+
     /// The coefficients of a linear Rec.2020 colour: those of its nodes, linear between them, over 2 s (1 - s). Components below 0 or above 1
-    /// count as these.
+    /// count as these; s stays within its nodes, so black and white are 1e-6 from 0 and 1. Of equal greatest components the first is m.
     pub fn coefficients(&self, rec2020: [f32; 3]) -> [f32; 3] {
         let [r, g, b] = rec2020.map(|value| value.clamp(0.0, 1.0));
         let z = r.max(g).max(b);
@@ -52,15 +55,15 @@ impl Upsampling {
             2
         };
         let [next, after] = [[g, b], [b, r], [r, g]][m];
-        let over = 1.0 / z.max(f32::MIN_POSITIVE);
         let root = z.sqrt();
-        let s = (root / (root + (1.0 - z).sqrt())).clamp(EDGE, 1.0 - EDGE);
+        let s = (root / (root + (1.0 - z).sqrt())).clamp(Self::EDGE, 1.0 - Self::EDGE);
         let steps = (self.resolution - 1) as f32;
-        let [(i, u), (j, v), (k, w)] = [next * over, after * over, (s - EDGE) / (1.0 - 2.0 * EDGE)].map(|place| {
-            let place = place.min(1.0) * steps;
-            let low = place.floor().min(steps - 1.0);
-            (low as usize, place - low)
-        });
+        let [(i, u), (j, v), (k, w)] =
+            [(next + TINY) / (z + TINY), (after + TINY) / (z + TINY), (s - Self::EDGE) / (1.0 - 2.0 * Self::EDGE)].map(|place| {
+                let place = place.min(1.0) * steps;
+                let low = place.floor().min(steps - 1.0);
+                (low as usize, place - low)
+            });
         let n = self.resolution;
         let node = |i: usize, j: usize, k: usize, c: usize| self.table[4 * (((m * n + k) * n + j) * n + i) + c];
         let mix = |a: f32, b: f32, t: f32| a * (1.0 - t) + b * t;

@@ -1,6 +1,6 @@
 //! The coefficients of the table's nodes, by the method of Levenberg and Marquardt.
 
-use super::{EDGE, REC709_TO_REC2020, Upsampling};
+use super::{REC709_TO_REC2020, Upsampling};
 use crate::{
     integral::VISIBLE,
     white::{colour, solved, turned},
@@ -40,8 +40,6 @@ struct Wanted {
     weight: f64,
     /// One over 2 s (1 - s).
     scale: f64,
-    /// The grey of that component, times 2 s (1 - s).
-    grey: [f64; 3],
 }
 
 /// How far a node is from its colour, and the derivatives by its three coefficients.
@@ -54,25 +52,42 @@ struct Misfit {
 pub(super) fn table(n: usize) -> Upsampling {
     let points = points();
     let mut table = vec![0.0; 3 * n * n * n * 4];
-    let edge = f64::from(EDGE);
     for m in 0..3 {
         for y in 0..n {
             for x in 0..n {
                 let ratios = [x, y].map(|node| node as f64 / (n - 1) as f64);
                 let mut node = |s: usize, start: [f64; 3]| {
-                    let wanted = wanted(m, edge + (1.0 - 2.0 * edge) * s as f64 / (n - 1) as f64, ratios);
-                    let found = solve(&points, &wanted, start);
+                    let found = solve(&points, &wanted(m, place(n, s), ratios), start);
                     let at = 4 * (((m * n + s) * n + y) * n + x);
                     table[at..at + 3].copy_from_slice(&found.map(|value| value as f32));
                     found
                 };
-                let middle = node(n / 2, [0.0; 3]);
-                (n / 2 + 1..n).fold(middle, |start, s| node(s, start));
-                (0..n / 2).rev().fold(middle, |start, s| node(s, start));
+                let middle = node(n / 2, grey(place(n, n / 2)));
+                let step = 2.0 * (place(n, 1) - place(n, 0));
+                (n / 2 + 1..n).fold((middle, [0.0, 0.0, step]), |from, s| onwards(from, |start| node(s, start)));
+                (0..n / 2).rev().fold((middle, [0.0, 0.0, -step]), |from, s| onwards(from, |start| node(s, start)));
             }
         }
     }
     Upsampling { resolution: n, table }
+}
+
+/// The s of a node.
+fn place(n: usize, node: usize) -> f64 {
+    let edge = f64::from(Upsampling::EDGE);
+    edge + (1.0 - 2.0 * edge) * node as f64 / (n - 1) as f64
+}
+
+/// The coefficients of a grey.
+fn grey(s: f64) -> [f64; 3] {
+    [0.0, 0.0, 2.0 * s - 1.0]
+}
+
+/// From a node's coefficients and the step to them, those of the next, which is sought where as long a step leads, and that step. Greys are
+/// met exactly.
+fn onwards((at, step): ([f64; 3], [f64; 3]), seek: impl FnOnce([f64; 3]) -> [f64; 3]) -> ([f64; 3], [f64; 3]) {
+    let found = seek(std::array::from_fn(|k| at[k] + step[k]));
+    (found, std::array::from_fn(|k| found[k] - at[k]))
 }
 
 /// The colour of a node.
@@ -81,7 +96,7 @@ fn wanted(m: usize, s: f64, [x, y]: [f64; 2]) -> Wanted {
     let mut colour = [z; 3];
     colour[(m + 1) % 3] = x * z;
     colour[(m + 2) % 3] = y * z;
-    Wanted { colour, weight: 1.0 / z, scale: 0.5 / (s * (1.0 - s)), grey: [0.0, 0.0, 2.0 * s - 1.0] }
+    Wanted { colour, weight: 1.0 / z, scale: 0.5 / (s * (1.0 - s)) }
 }
 
 /// The points' colours: those of whole nanometres, shared by the points beside them, so that a reflectance is linear between points.
@@ -113,8 +128,8 @@ fn points() -> Vec<Points> {
 
 /// The coefficients of a colour, times 2 s (1 - s), from those of a colour near it.
 fn solve(points: &[Points], wanted: &Wanted, start: [f64; 3]) -> [f64; 3] {
-    let [near, grey] = [start, wanted.grey].map(|start| (start, error_of(points, wanted, start)));
-    let (mut found, mut misfit) = if squares(near.1.error) < squares(grey.1.error) { near } else { grey };
+    let mut found = start.map(|value| value.clamp(-LARGEST, LARGEST));
+    let mut misfit = error_of(points, wanted, found);
     let mut damping = 1e-6;
     for _ in 0..STEPS {
         if squares(misfit.error) < ERROR * ERROR {
@@ -149,6 +164,7 @@ fn step(misfit: &Misfit, damping: f64) -> [f64; 3] {
     solved(normal, slopes.map(|slope| -product(slope, misfit.error)))
 }
 
+/// How far coefficients, times 2 s (1 - s), are from a colour.
 fn error_of(points: &[Points], wanted: &Wanted, coefficients: [f64; 3]) -> Misfit {
     let [c0, c1, c2] = coefficients.map(|value| value * wanted.scale);
     let mut sums = [[0.0; LANES]; 3];
