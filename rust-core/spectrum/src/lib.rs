@@ -7,7 +7,7 @@
 //! assert_eq!(figures.white.expect("a white lamp").cct.round(), 3999.0);
 //! ```
 //!
-//! For spectral rendering: [`triples`] of wavelengths whose light is white together, [`upsampling`] of colours to spectra of reflectance.
+//! For spectral rendering: [`triples()`] of wavelengths whose light is white together, [`upsampling()`] of colours to spectra of reflectance.
 //!
 //! Wavelengths are in nanometres, power is per nanometre in any unit. A spectrum is summed at its own points, by the trapezoidal rule, as the CIE's
 //! tables in steps of 5 nm are; steps beyond 5 nm are divided linearly first. `data/README.md` names the tables and their licence.
