@@ -2,7 +2,9 @@
 """Lamps whose strength is stated in photometric units or by a luminaire's file."""
 
 from math import cos, sin
+from pathlib import Path
 
+import bpy
 import gonio
 import numpy as np
 
@@ -31,6 +33,20 @@ def apply(description, lamp, colour, matrix, report):
         description["shaping"].update(focus=settings.cosine_power, cone_angle_deg=90.0)
     _luminaire(description, lamp, np.asarray(matrix, dtype=float), report)
     description["quantity"] = _quantity(settings, report, lamp)
+    if settings.spectrum:
+        description["spectrum"] = _spectrum(lamp, report)
+
+
+def _spectrum(lamp, report):
+    """The spectrum of a file or a name; none, with a report, where it is neither."""
+    asked = lamp.gonio.spectrum
+    path = Path(bpy.path.abspath(asked, library=lamp.library))
+    try:
+        found = gonio.read_spectrum(path.read_bytes(), path.name) if path.is_file() else gonio.illuminant(asked)
+    except (OSError, gonio.Error) as error:
+        report.add("Light", lamp.name, f"{error}; the light keeps its colour")
+        return None
+    return {key: found[key] for key in ("name", "wavelengths_nm", "power")}
 
 
 def _quantity(settings, report, lamp):

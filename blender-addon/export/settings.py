@@ -43,6 +43,7 @@ def settings(depsgraph, *, width, height, crop, preview, passes, aspect=(1.0, 1.
         "seed": int(ask("seed", 0)) + (scene.frame_current if ask("use_animated_seed", False) else 0),
         # What moves under the mouse does not wait for learning.
         "guiding": "off" if preview else GUIDING.get(ask("guiding", "OFF"), "off"),
+        "spectral": bool(ask("spectral", False)),
         "caustics": CAUSTICS.get(ask("caustics", "AUTO"), "auto"),
         "reflective_caustics": bool(ask("caustics_reflective", True)),
         "refractive_caustics": bool(ask("caustics_refractive", True)),

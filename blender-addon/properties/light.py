@@ -104,6 +104,14 @@ class GonioLightSettings(bpy.types.PropertyGroup):
         options={"PATH_SUPPORTS_BLEND_RELATIVE"},
         update=_take_over,
     )
+    spectrum: StringProperty(
+        name="Spectrum",
+        description="A file of wavelengths and power (CSV, IES TM-27), or a name such as LED-B3, FL11, HP1, D65, 2700K. "
+        "Its colour takes the place of the light's",
+        subtype="FILE_PATH",
+        options={"PATH_SUPPORTS_BLEND_RELATIVE"},
+        update=tag_data,
+    )
     opening: EnumProperty(name="Opening", description="What of the luminaire shines", items=OPENINGS, default="FILE", update=tag_data)
     rotation: FloatProperty(
         name="C0",

@@ -145,6 +145,11 @@ class GonioSceneSettings(AppearanceSettings, bpy.types.PropertyGroup):
         default="OFF",
         update=tag_data,
     )
+    spectral: switch(
+        "Spectral",
+        "Light has wavelengths, three a path, in place of red, green and blue: spectra of lamps, metamers and thin films come out as they are",
+        tag_data,
+    )
     use_sample_subset: switch("Sample Subset", "Take some of the samples alone, for renders that are merged later", tag_data)
     sample_offset: IntProperty(
         name="Sample Offset", description="Samples before the first of the subset", min=0, max=MOST_SAMPLES, default=0, update=tag_data

@@ -32,6 +32,7 @@ class GONIO_LIGHT_PT_photometry(LightPanel, Panel):
             layout.prop(settings, "cosine_power")
         if light.type != "SUN":
             _draw_luminaire(layout, light)
+        layout.prop(settings, "spectrum")
         factors = layout.column(align=True)
         factors.prop(settings, "dimming")
         factors.prop(settings, "maintenance")

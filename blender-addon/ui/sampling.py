@@ -69,6 +69,7 @@ class GONIO_RENDER_PT_sampling_advanced(RenderPanel, Panel):
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw_settings(self, layout, scene):
+        layout.prop(scene.gonio, "spectral")
         row = layout.row(align=True)
         row.prop(scene.gonio, "seed")
         row.prop(scene.gonio, "use_animated_seed", text="", icon="TIME")

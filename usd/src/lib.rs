@@ -19,6 +19,7 @@ mod goniogram;
 mod haze;
 pub mod instancer;
 mod kept;
+mod lamp_spectrum;
 pub mod light;
 mod light_filter;
 mod luminaire_file;

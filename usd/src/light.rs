@@ -2,6 +2,7 @@
 
 use crate::context::{Context, UpAxis};
 use crate::goniogram::{Request, goniogram};
+use crate::lamp_spectrum::lamp_spectrum;
 use crate::material::{stated_colour_space, texture, to_linear_rec709};
 use crate::photometry;
 use crate::prim::Prim;
@@ -65,6 +66,7 @@ pub fn light<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, transform: &
         diffuse: multiplier(context, prim, "diffuse"),
         specular: multiplier(context, prim, "specular"),
         group: group(context, prim),
+        spectrum: lamp_spectrum(context, prim),
         ..Light::default()
     };
     Some(match photometry {

@@ -55,6 +55,8 @@ pub struct RenderSettings {
     pub material_binding_purposes: Vec<String>,
     /// The gamut in which EXR files have their colours; gonio itself renders in linear Rec.709.
     pub gamut: Gamut,
+    /// Whether light has wavelengths in place of red, green and blue (`gonio:spectral`).
+    pub spectral: bool,
     /// Whether the camera does not see the shapes of lamps (`gonio:hideLights`).
     pub hide_lights: bool,
     /// The files wanted.

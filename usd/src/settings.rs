@@ -70,6 +70,7 @@ fn read<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> RenderSettings
         purposes: purposes(context, prim),
         material_binding_purposes: binding_purposes(context, prim),
         gamut: gamut(context, prim),
+        spectral: context.get_authored(prim, "gonio:spectral").unwrap_or(false),
         hide_lights: context.get_authored(prim, "gonio:hideLights").unwrap_or(false),
         products: product_prims.iter().filter_map(|product| read_product(context, prim, product)).collect(),
         origin: prim.origin(),

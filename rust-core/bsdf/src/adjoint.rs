@@ -20,7 +20,7 @@ const GRAZING: f32 = 1e-6;
 #[derive(Clone, Copy, Debug)]
 pub struct LightHits<'a, L: Lanes> {
     /// Parameters and, as the view, the direction towards the light.
-    pub hits: Hits<'a, L>,
+    pub hits: Hits<'a, 'a, L>,
     /// Unit normal of the triangle in the shading frame, on the light's side.
     pub geometric: Vec3<L>,
     /// Whether interfaces let all flux pass that does not reflect. Else they let pass what camera paths would find, direction by direction, which need
@@ -35,7 +35,7 @@ impl Surface {
     pub fn flux<'s, L: Lanes>(
         &'s self,
         l: L,
-        light: &LightHits<'_, L>,
+        light: &LightHits<'s, L>,
         lobes: &Lobes<'s, L>,
         to: Vec3<L>,
         room: &mut Lobes<'s, L>,
@@ -61,7 +61,7 @@ impl Surface {
 
     /// Makes `room` the lobes that a camera path sees which comes from `to`.
     #[inline(always)]
-    fn resolve_seen<'s, L: Lanes>(&'s self, l: L, light: &LightHits<'_, L>, to: Vec3<L>, room: &mut Lobes<'s, L>) {
+    fn resolve_seen<'s, L: Lanes>(&'s self, l: L, light: &LightHits<'s, L>, to: Vec3<L>, room: &mut Lobes<'s, L>) {
         let behind = to.z.lt(0.0);
         #[allow(clippy::manual_map, reason = "a closure may stay a call outside the level's instructions")]
         let normals = match light.hits.normals {
@@ -77,7 +77,7 @@ impl Surface {
     pub fn flux_factor<'s, L: Lanes>(
         &'s self,
         l: L,
-        light: &LightHits<'_, L>,
+        light: &LightHits<'s, L>,
         lobes: &Lobes<'s, L>,
         sample: &BsdfSample<L>,
         room: &mut Lobes<'s, L>,

@@ -82,7 +82,8 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
         if !self.surface.lobes.film {
             return None;
         }
-        Some(Film::new(self.get(p::THIN_FILM_WEIGHT), self.get(p::THIN_FILM_IOR), self.get(p::THIN_FILM_THICKNESS), near))
+        let numbers = [self.get(p::THIN_FILM_WEIGHT), self.get(p::THIN_FILM_IOR), self.get(p::THIN_FILM_THICKNESS)];
+        Some(Film::new(numbers, near, self.wavelengths()))
     }
 
     /// Factor for scattering between facets of a reflection, and the lobe's albedo with it.

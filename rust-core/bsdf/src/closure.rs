@@ -62,7 +62,7 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
     /// Glass, or refraction alone.
     #[inline(always)]
     fn single_interface(&mut self, colour: Spectrum<L>) {
-        let ior = self.get(p::IOR).max(1e-5);
+        let ior = self.dispersed(self.get(p::IOR).max(1e-5));
         let eta = self.entering.select(ior, ior.recip());
         let film = self.film(self.entering.select(self.l.f(1.0), ior));
         let refracts_only = self.surface.switches.closure == Closure::Refraction;
@@ -85,7 +85,7 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
             None
         };
         let weight = self.weight * colour * self.get(p::SPECULAR_SCALE).max(0.0);
-        let lobe = MeasuredLobe::new(bsdf, front);
+        let lobe = MeasuredLobe::new(bsdf, front, self.wavelengths());
         self.push(Shape::Measured(lobe), weight, weight * lobe.albedo(self.specular_wo), turn, Side::Both, Normal::Specular);
     }
 

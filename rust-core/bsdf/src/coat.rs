@@ -53,7 +53,7 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
     pub(super) fn darkening(&self, presence: F<L>, ior: F<L>, coat: &Curve<L>) -> Spectrum<L> {
         let (below, rough_share) = match &self.surface.measured {
             Some(bsdf) => {
-                let lobe = MeasuredLobe::new(bsdf, bsdf.front(self.l, self.entering));
+                let lobe = MeasuredLobe::new(bsdf, bsdf.front(self.l, self.entering), self.wavelengths());
                 let albedo = lobe.albedo(self.coat_wo) * self.reflectance(p::BASE_COLOR) * self.get(p::SPECULAR_SCALE);
                 (albedo.saturate(), self.l.f(lobe.roughness()))
             }

@@ -7,7 +7,7 @@
 use super::energy::floats;
 use super::fresnel::{f82_channel, f82_coefficients, gulbrandsen_channel, normal_reflectance};
 use core::f32::consts::PI;
-use gonio_simd::{F, Lanes, M, Rgb, Spectrum};
+use gonio_simd::{F, Lanes, M, Rgb, Spectrum, Wavelengths};
 
 /// Nodes along the path difference.
 const NODES: usize = 512;
@@ -29,6 +29,8 @@ pub(crate) struct Film<L: Lanes> {
     ior: F<L>,
     /// Thickness, nanometres.
     thickness: F<L>,
+    /// Wavelengths in nanometres, where light has any.
+    nanometres: Option<Spectrum<L>>,
 }
 
 /// Complex numbers, one for each component of light.
@@ -69,12 +71,34 @@ fn sensitivity<L: Lanes>(l: L, difference: F<L>) -> Complex<L> {
         *value = low.lerp(high, t);
     }
     let [r, g, b, r_imaginary, g_imaginary, b_imaginary] = values;
-    [Spectrum::coefficient(Rgb::new(r, g, b)), Spectrum::coefficient(Rgb::new(r_imaginary, g_imaginary, b_imaginary))]
+    let rgb = Wavelengths::rgb(l);
+    [rgb.coefficient(Rgb::new(r, g, b)), rgb.coefficient(Rgb::new(r_imaginary, g_imaginary, b_imaginary))]
+}
+
+/// Cosine and sine of the phase of a path difference, both in nanometres.
+#[inline(always)]
+fn turned<L: Lanes>(difference: F<L>, nanometres: Spectrum<L>) -> Complex<L> {
+    nanometres.zip(
+        nanometres,
+        #[inline(always)]
+        |nanometres, _| {
+            let turns = difference / nanometres;
+            let (sin, cos) = (turns - turns.floor()).sin_cos_turns();
+            [cos, sin]
+        },
+    )
 }
 
 /// The sum for one polarisation: reflectance `top` of the film's upper side, `bottom` of its lower one, `phase` of both inner reflections.
 #[inline(always)]
-fn airy<L: Lanes>(l: L, top: F<L>, bottom: Spectrum<L>, phase: Complex<L>, sensitivities: &[Complex<L>; ORDERS]) -> Spectrum<L> {
+fn airy<L: Lanes>(
+    l: L,
+    top: F<L>,
+    bottom: Spectrum<L>,
+    phase: Complex<L>,
+    sensitivities: &[Complex<L>; ORDERS],
+    at_wavelengths: bool,
+) -> Spectrum<L> {
     let white = Spectrum::one(l);
     let passed = 1.0 - top;
     let both = bottom * top;
@@ -82,6 +106,12 @@ fn airy<L: Lanes>(l: L, top: F<L>, bottom: Spectrum<L>, phase: Complex<L>, sensi
     let step = both.safe_sqrt();
     let mut sum = inner + Spectrum::constant(top);
     let mut factor = inner - Spectrum::constant(passed);
+    if at_wavelengths {
+        // All orders: the sum of ρᵐ cos mθ is (ρ cos θ − ρ²) / (1 − 2 ρ cos θ + ρ²).
+        let [cos, sin] = sensitivities[0];
+        let turned = (phase[0] * cos + phase[1] * sin) * step;
+        return sum + factor * (turned - both) / (white - turned * 2.0 + both).max(1e-6) * 2.0;
+    }
     let mut turn = phase;
     for s in sensitivities {
         factor = factor * step;
@@ -122,16 +152,19 @@ impl<L: Lanes> Film<L> {
     /// A film of this index and thickness in nanometres. From inside a body of index `near` its index counts relative to the body; the
     /// thickness stays, as in Cycles.
     #[inline(always)]
-    pub(crate) fn new(weight: F<L>, ior: F<L>, thickness: F<L>, near: F<L>) -> Self {
+    pub(crate) fn new([weight, ior, thickness]: [F<L>; 3], near: F<L>, wavelengths: Wavelengths<'_, L>) -> Self {
         // Films of a few atoms have no wave optics: they go over into nothing.
         let t = thickness.saturate();
         let ior = ior.lanes().f(1.0).lerp(ior.max(1e-5) / near, t * t * (3.0 - t * 2.0));
-        Self { weight: weight.saturate().keep_if(thickness.gt(THINNEST)), ior, thickness }
+        Self { weight: weight.saturate().keep_if(thickness.gt(THINNEST)), ior, thickness, nanometres: wavelengths.nanometres() }
     }
     /// Sensitivities of all passages for the film's inner cosine.
     #[inline(always)]
     fn passages(&self, l: L, cos: F<L>) -> [Complex<L>; ORDERS] {
         let difference = self.ior * self.thickness * cos * 2.0;
+        if let Some(nanometres) = self.nanometres {
+            return [turned(difference, nanometres); ORDERS];
+        }
         let mut passages = [[Spectrum::zero(l); 2]; ORDERS];
         for (order, passage) in passages.iter_mut().enumerate() {
             #[allow(clippy::cast_precision_loss, reason = "three passages")]
@@ -150,7 +183,8 @@ impl<L: Lanes> Film<L> {
         let mut sum = Spectrum::zero(l);
         for side in 0..2 {
             let phase = [Spectrum::constant(-(upper.sign[side] * lower.sign[side])), Spectrum::zero(l)];
-            sum += airy(l, upper.reflectance[side], Spectrum::constant(lower.reflectance[side]), phase, &passages);
+            sum +=
+                airy(l, upper.reflectance[side], Spectrum::constant(lower.reflectance[side]), phase, &passages, self.nanometres.is_some());
         }
         (upper.total | lower.total).select(Spectrum::one(l), (sum * 0.5).saturate())
     }
@@ -172,7 +206,7 @@ impl<L: Lanes> Film<L> {
         let mut sum = Spectrum::zero(l);
         for (side, (bottom, cos, sin)) in [(s, cos_s, sin_s), (p, cos_p, sin_p)].into_iter().enumerate() {
             let turn = -upper.sign[side];
-            sum += airy(l, upper.reflectance[side], bottom, [cos * turn, sin * turn], &passages);
+            sum += airy(l, upper.reflectance[side], bottom, [cos * turn, sin * turn], &passages, self.nanometres.is_some());
         }
         upper.total.select(Spectrum::one(l), (sum * 0.5).saturate())
     }

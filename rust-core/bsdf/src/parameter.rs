@@ -106,6 +106,8 @@ block! {
     TRANSMISSION_COLOR "transmission_color" [1.0, 1.0, 1.0], SHARE;
     /// Distance in metres after which white light has the transmission colour; 0 tints the interface instead.
     TRANSMISSION_DEPTH "transmission_depth" [0.0], LENGTH;
+    /// How much the index differs by wavelength where light has any: 1 over the Abbe number, 0 without dispersion.
+    TRANSMISSION_DISPERSION "transmission_dispersion" [0.0], [0.0, 1.0];
     /// Added to the roughness of the transmission, the sum held in 0 to 1.
     TRANSMISSION_EXTRA_ROUGHNESS "transmission_extra_roughness" [0.0], [-1.0, 1.0];
     /// Share of subsurface scattering in the opaque dielectric base, 0 to 1.

@@ -10,13 +10,13 @@ use super::parameter as p;
 use super::subsurface::{EntryLobe, LEAST_RADIUS, medium};
 use super::surface::{ParameterValues, Surface};
 use super::switches::{Attenuation, Bump, Closure, EmissionOrder, Fuzz, FuzzAttenuation, FuzzOrder, SubsurfaceMethod};
-use gonio_simd::{F, Lanes, M, Spectrum, Vec3};
+use gonio_simd::{F, Hero, Lanes, M, Spectrum, Vec3, Wavelengths};
 
 /// The layers' state on the way in.
 pub(super) struct Layers<'s, 'a, 'b, L: Lanes> {
     pub(super) l: L,
     pub(super) surface: &'s Surface,
-    pub(super) values: &'a ParameterValues<'a>,
+    pub(super) values: &'s ParameterValues<'s>,
     pub(super) at: usize,
     pub(super) wo: Vec3<L>,
     /// The view in the frame of specular lobes, and its cosine, kept off the tables' edge.
@@ -29,6 +29,8 @@ pub(super) struct Layers<'s, 'a, 'b, L: Lanes> {
     pub(super) numbers: Option<&'a [F<L>; NUMBERS]>,
     /// Whether light walks under the surface.
     pub(super) walks: bool,
+    /// The wavelength that goes on alone, where the surface disperses.
+    pub(super) hero: Option<Hero<L>>,
     /// What the layers above leave.
     pub(super) weight: Spectrum<L>,
     /// Whether a coloured coat stands above.
@@ -38,9 +40,9 @@ pub(super) struct Layers<'s, 'a, 'b, L: Lanes> {
 
 /// A register of hits to resolve.
 #[derive(Clone, Copy, Debug)]
-pub struct Hits<'a, L: Lanes> {
+pub struct Hits<'s, 'a, L: Lanes> {
     /// Parameters of a chunk of hits.
-    pub values: &'a ParameterValues<'a>,
+    pub values: &'s ParameterValues<'s>,
     /// The first of the register's hits in the chunk.
     pub at: usize,
     /// The view in the shading frame, on the viewer's side.
@@ -51,21 +53,23 @@ pub struct Hits<'a, L: Lanes> {
     pub normals: Option<&'a Normals<L>>,
     /// Whether light walks under the surface; else it comes out where it went in.
     pub walks: bool,
+    /// The wavelength that goes on alone where the surface disperses; none where light has no wavelengths.
+    pub hero: Option<Hero<L>>,
     /// Random numbers of each hit, for surfaces that draw a way inside ([`LobeSet::drawn`](super::LobeSet)).
     pub numbers: Option<&'a [F<L>; NUMBERS]>,
 }
 
-impl<'a, L: Lanes> Hits<'a, L> {
+impl<'s, L: Lanes> Hits<'s, '_, L> {
     /// Hits of which nothing is asked but what passes straight, or shines.
     #[inline(always)]
-    fn plain(values: &'a ParameterValues<'a>, at: usize, wo: Vec3<L>, entering: M<L>) -> Self {
-        Self { values, at, wo, entering, normals: None, walks: true, numbers: None }
+    fn plain(values: &'s ParameterValues<'s>, at: usize, wo: Vec3<L>, entering: M<L>) -> Self {
+        Self { values, at, wo, entering, normals: None, walks: true, hero: None, numbers: None }
     }
 }
 
 /// [`Surface::layers`] as a function of its own, which all that resolve share.
 #[inline(never)]
-fn resolve<'s, L: Lanes>(l: L, surface: &'s Surface, hits: &Hits<'_, L>, lobes: &mut Lobes<'s, L>) {
+fn resolve<'s, L: Lanes>(l: L, surface: &'s Surface, hits: &Hits<'s, '_, L>, lobes: &mut Lobes<'s, L>) {
     l.vectorize(
         #[inline(always)]
         || surface.layers(l, hits, lobes),
@@ -75,14 +79,14 @@ fn resolve<'s, L: Lanes>(l: L, surface: &'s Surface, hits: &Hits<'_, L>, lobes: 
 impl Surface {
     /// Makes `lobes` those of some hits. In place, for a list of lobes is long to copy.
     #[inline(always)]
-    pub fn resolve<'s, L: Lanes>(&'s self, l: L, hits: &Hits<'_, L>, lobes: &mut Lobes<'s, L>) {
+    pub fn resolve<'s, L: Lanes>(&'s self, l: L, hits: &Hits<'s, '_, L>, lobes: &mut Lobes<'s, L>) {
         lobes.clear(l);
         resolve(l, self, hits, lobes);
     }
 
     #[inline(always)]
-    fn layers<'s, L: Lanes>(&'s self, l: L, hits: &Hits<'_, L>, lobes: &mut Lobes<'s, L>) {
-        let Hits { values, at, wo, entering, normals, walks, numbers } = *hits;
+    fn layers<'s, L: Lanes>(&'s self, l: L, hits: &Hits<'s, '_, L>, lobes: &mut Lobes<'s, L>) {
+        let Hits { values, at, wo, entering, normals, walks, hero, numbers } = *hits;
         if let Some(normals) = normals {
             let presence = values.get(l, p::COAT_WEIGHT, at).saturate();
             lobes.tilts = self.tilts(normals, wo, presence);
@@ -102,6 +106,7 @@ impl Surface {
             entering,
             numbers,
             walks,
+            hero: hero.filter(|_| self.lobes.disperses),
             weight: Spectrum::one(l),
             coated: false,
             lobes,
@@ -177,6 +182,11 @@ impl<'s, L: Lanes> Layers<'s, '_, '_, L> {
     #[inline(always)]
     pub(super) fn coefficient(&self, offset: usize) -> Spectrum<L> {
         self.values.coefficient(self.l, offset, self.at)
+    }
+    /// Those of the hits' paths.
+    #[inline(always)]
+    pub(super) fn wavelengths(&self) -> Wavelengths<'s, L> {
+        self.values.wavelengths.load(self.l, self.at)
     }
 
     #[inline(always)]

@@ -3,7 +3,7 @@
 use super::measured::MeasuredBsdf;
 use super::parameter::{self as p, COUNT};
 use super::switches::{Closure, SubsurfaceMethod, Switches};
-use gonio_simd::{F, Lanes, Rgb, Spectrum};
+use gonio_simd::{F, Lanes, Rgb, Spectrum, WavelengthColumn};
 use std::sync::Arc;
 
 /// Which lobes and layers of a surface can ever differ from nothing.
@@ -35,6 +35,8 @@ pub struct LobeSet {
     pub specular: bool,
     /// Transmission.
     pub transmission: bool,
+    /// Whether what passes is bent by its wavelength.
+    pub disperses: bool,
     /// Coat.
     pub coat: bool,
     /// Tint of the coat.
@@ -146,6 +148,7 @@ impl Reach<'_> {
             metal,
             specular: opaque && reflects && bends,
             transmission,
+            disperses: transmission && !switches.thin_walled && self.positive(p::TRANSMISSION_DISPERSION, 1),
             coat,
             coat_tint: coat && (0..3).any(|channel| !self.is(p::COAT_COLOR + channel, 1.0)),
             fuzz: self.positive(p::FUZZ_WEIGHT, 1),
@@ -176,6 +179,7 @@ impl Reach<'_> {
             walk: subsurface && switches.subsurface != SubsurfaceMethod::Diffuse,
             metal: reflects,
             transmission: matches!(closure, Closure::Glass | Closure::Refraction),
+            disperses: matches!(closure, Closure::Glass | Closure::Refraction) && self.positive(p::TRANSMISSION_DISPERSION, 1),
             fuzz: closure == Closure::Sheen && colour,
             emission: self.shines(),
             cut_out: !self.is(p::OPACITY, 1.0),
@@ -221,12 +225,14 @@ pub struct ParameterValues<'a> {
     pub constants: &'a [f32; COUNT],
     /// Columns, padded to whole registers.
     pub columns: [Option<&'a [f32]>; COUNT],
+    /// Wavelengths of the hits' paths.
+    pub wavelengths: WavelengthColumn<'a>,
 }
 
 impl<'a> ParameterValues<'a> {
     /// Values without any column.
     pub fn constant(constants: &'a [f32; COUNT]) -> Self {
-        Self { constants, columns: [None; COUNT] }
+        Self { constants, columns: [None; COUNT], wavelengths: WavelengthColumn::default() }
     }
     /// A number for the hits from `at` on.
     #[inline(always)]
@@ -243,16 +249,16 @@ impl<'a> ParameterValues<'a> {
     /// A colour for the hits from `at` on, as what it does to light.
     #[inline(always)]
     pub fn reflectance<L: Lanes>(&self, l: L, offset: usize, at: usize) -> Spectrum<L> {
-        Spectrum::reflectance(self.colour(l, offset, at))
+        self.wavelengths.load(l, at).reflectance(self.colour(l, offset, at))
     }
     /// Another parameter that differs by wavelength.
     #[inline(always)]
     pub fn coefficient<L: Lanes>(&self, l: L, offset: usize, at: usize) -> Spectrum<L> {
-        Spectrum::coefficient(self.colour(l, offset, at))
+        self.wavelengths.load(l, at).coefficient(self.colour(l, offset, at))
     }
     /// Emitted radiance.
     #[inline(always)]
     pub fn radiance<L: Lanes>(&self, l: L, offset: usize, at: usize) -> Spectrum<L> {
-        Spectrum::radiance(self.colour(l, offset, at))
+        self.wavelengths.load(l, at).radiance(self.colour(l, offset, at))
     }
 }

@@ -13,6 +13,11 @@ use super::switches::{Fresnel, Tint};
 use super::turn::turned;
 use gonio_simd::{F, Lanes, Spectrum};
 
+/// Wavelengths of the lines d, F and C, nm, by which indices and Abbe numbers are stated.
+const D_LINE: f32 = 587.56;
+const F_LINE: f32 = 486.13;
+const C_LINE: f32 = 656.27;
+
 impl<L: Lanes> Layers<'_, '_, '_, L> {
     /// Widths of the transmission.
     #[inline(always)]
@@ -21,11 +26,22 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
         if self.surface.switches.transmission_isotropic { (Widths::isotropic(roughness * roughness), None) } else { self.widths(roughness) }
     }
 
+    /// The index for the wavelength that goes on alone, by Cauchy's formula of two terms through the index at 587.56 nm and the Abbe number.
+    #[inline(always)]
+    pub(super) fn dispersed(&self, ior: F<L>) -> F<L> {
+        let Some(hero) = &self.hero else { return ior };
+        let squared = (hero.nanometres * hero.nanometres).recip();
+        let along = (squared - 1.0 / (D_LINE * D_LINE)) * (1.0 / (1.0 / (F_LINE * F_LINE) - 1.0 / (C_LINE * C_LINE)));
+        let rise = (ior - 1.0) * self.get(p::TRANSMISSION_DISPERSION);
+        along.mul_add(rise, ior).max(1e-5)
+    }
+
     #[inline(always)]
     pub(super) fn glass(&mut self, base: &Base<L>) {
         let l = self.l;
         let presence = self.get(p::TRANSMISSION_WEIGHT).saturate();
-        let normal = fresnel::normal_reflectance(base.bending);
+        let bending = self.dispersed(base.bending);
+        let normal = fresnel::normal_reflectance(bending);
         let (tint, scale) = (self.reflectance(p::SPECULAR_COLOR), self.get(p::SPECULAR_SCALE));
         let depth = self.get(p::TRANSMISSION_DEPTH).gt(0.0);
         let passed = depth.select(self.white(), self.reflectance(p::TRANSMISSION_COLOR).max(0.0));
@@ -34,29 +50,22 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
             Tint::Normal => {
                 // The making up for rough glass knows no interface that reflects more than its index has it.
                 let f0 = tint.saturate() * normal;
-                Interface {
-                    eta: base.bending,
-                    f0: f0 * scale,
-                    f90: Spectrum::constant(scale),
-                    kept: f0,
-                    passed,
-                    ..Interface::clear(base.bending)
-                }
+                Interface { eta: bending, f0: f0 * scale, f90: Spectrum::constant(scale), kept: f0, passed, ..Interface::clear(bending) }
             }
             Tint::WholeLobe => {
                 let above = self.entering.select(tint, self.white()) * scale;
                 Interface {
-                    eta: base.bending,
+                    eta: bending,
                     f0: above * normal,
                     f90: above,
                     kept: Spectrum::constant(normal),
                     passed,
-                    ..Interface::clear(base.bending)
+                    ..Interface::clear(bending)
                 }
             }
         };
         let eta = self.entering.select(interface.eta, interface.eta.recip());
-        let film = self.film(self.entering.select(l.f(1.0), base.bending));
+        let film = self.film(self.entering.select(l.f(1.0), bending));
         let interface = Interface { eta, schlick: self.surface.switches.fresnel == Fresnel::Schlick, film, ..interface };
         let (widths, turn) = self.transmission_widths(base);
         self.interface(self.weight * presence, widths, turn, interface);
@@ -72,6 +81,10 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
             let table = energy::glass(self.l, widths.roughness(), self.specular_mu, interface.eta);
             factor = energy::compensation(table, interface.passed.saturate());
         }
+        let interface = match &self.hero {
+            Some(hero) => Interface { passed: interface.passed * hero.factor, ..interface },
+            None => interface,
+        };
         let [reflected, refracted] = interface.split(self.specular_mu);
         let lobe = GlassLobe::new(turned(self.specular_wo, turn), widths, interface, distribution);
         self.push(Shape::Glass(lobe), weight * factor, weight * (reflected + refracted), turn, Side::Both, Normal::Specular);

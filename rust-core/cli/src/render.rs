@@ -321,6 +321,7 @@ impl Job<'_> {
         settings.integrator = options.integrator.into();
         settings.caustics = options.caustics.into();
         settings.guiding = options.guiding.into();
+        settings.spectral |= options.spectral;
         settings.light_samples = options.light_samples;
         settings.filter = match options.filter {
             FilterArgument::Box => Filter::Box,

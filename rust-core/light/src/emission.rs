@@ -5,7 +5,7 @@ use super::projected_area::per_area;
 use super::row::{Reader, field, flag};
 use super::shaping::shaping;
 use super::table::LightTable;
-use gonio_simd::{F, Lanes, M, Rgb, Spectrum, Vec3};
+use gonio_simd::{F, Lanes, M, Rgb, Vec3};
 
 impl LightTable {
     /// Whether a flat light's emitting side looks at the point that sees it along `wi`; other lights are kept by their densities.
@@ -22,8 +22,8 @@ impl LightTable {
 
     /// Le: radiance sent against `wi`, with shaping, goniogram and texture.
     #[inline(always)]
-    pub(super) fn le<L: Lanes>(&self, l: L, light: &Reader<'_, L>, wi: Vec3<L>, uv: [F<L>; 2]) -> Spectrum<L> {
-        let plain = light.radiance(field::RADIANCE);
+    pub(super) fn le<L: Lanes>(&self, l: L, light: &Reader<'_, L>, wi: Vec3<L>, uv: [F<L>; 2]) -> Rgb<L> {
+        let plain = light.colour(field::RADIANCE);
         if !light.flag(flag::VARIED).any() {
             return plain;
         }
@@ -44,12 +44,12 @@ impl LightTable {
         if dome.any() {
             image = dome.select(self.textures.lookup(l, first, size, uv, true), image);
         }
-        shaped * Spectrum::reflectance(image)
+        shaped * image
     }
 
     /// Factor on the radiance towards unit `direction`: shaping, goniogram and opening.
     #[inline(always)]
-    pub(super) fn beam<L: Lanes>(&self, l: L, light: &Reader<'_, L>, direction: Vec3<L>) -> Spectrum<L> {
+    pub(super) fn beam<L: Lanes>(&self, l: L, light: &Reader<'_, L>, direction: Vec3<L>) -> Rgb<L> {
         shaping(l, light, direction, l.m(true)) * self.goniogram_factor(l, light, direction) * per_area(l, light, direction)
     }
 

@@ -7,7 +7,7 @@ use super::mis::hit_weight;
 use super::row::field;
 use super::table::{InfiniteLight, LightTable};
 use super::tree::LightCache;
-use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
+use gonio_simd::{F, Lanes, M, Rgb, Spectrum, U, Vec3, Wavelengths};
 
 /// A ray that left the scene.
 #[derive(Clone, Copy, Debug)]
@@ -36,6 +36,7 @@ impl LightTable {
         from: &LightSampleContext<L>,
         ray: &EscapedRay<L>,
         only: Option<u32>,
+        wavelengths: Wavelengths<'_, L>,
     ) -> Spectrum<L> {
         let EscapedRay { direction: wi, pdf: bsdf_pdf, first, delta, kind } = *ray;
         let mut sum = Spectrum::zero(l);
@@ -54,6 +55,7 @@ impl LightTable {
                 }
             }
             let seen = (first & l.m(infinite.visible)) | l.m(infinite.scattered).and_not(first);
+            let radiance = self.light(wavelengths, l.u(infinite.light), radiance);
             sum += (radiance * weight).keep_if(seen & self.sees(l, from.receiver, l.u(infinite.light)));
         }
         sum
@@ -61,11 +63,11 @@ impl LightTable {
 
     /// Radiance of one infinite light along `wi` and the density of its sampling.
     #[inline(always)]
-    fn infinite_radiance<L: Lanes>(&self, l: L, infinite: &InfiniteLight, [from, n]: [Vec3<L>; 2], wi: Vec3<L>) -> (Spectrum<L>, F<L>) {
+    fn infinite_radiance<L: Lanes>(&self, l: L, infinite: &InfiniteLight, [from, n]: [Vec3<L>; 2], wi: Vec3<L>) -> (Rgb<L>, F<L>) {
         let light = self.reader(l, l.u(infinite.light));
         if infinite.kind == LightKind::Distant {
             let (inside, density) = distant::density(&light, wi);
-            return (light.radiance(field::RADIANCE).keep_if(inside), density.keep_if(inside));
+            return (light.colour(field::RADIANCE).keep_if(inside), density.keep_if(inside));
         }
         let (mut pdf, place) = self.dome_density(l, infinite, n, wi);
         if let Some(portals) = self.portals_at(l, from) {

@@ -12,7 +12,7 @@ use super::sphere::Sphere;
 use super::table::LightTable;
 use super::tree::LightCache;
 use super::triangle::Triangle;
-use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
+use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
 
 impl LightTable {
     /// Radiance towards `context` of the light's point `hit`, which a ray along unit `wi` met. With it the pdf per solid angle with which
@@ -27,9 +27,9 @@ impl LightTable {
         light: U<L>,
         [wi, hit]: [Vec3<L>; 2],
         mask: M<L>,
-    ) -> (Spectrum<L>, F<L>) {
+    ) -> (Rgb<L>, F<L>) {
         if self.count == 0 || !mask.any() {
-            return (Spectrum::zero(l), l.f(0.0));
+            return (Rgb::zero(l), l.f(0.0));
         }
         let from = context.position;
         // Lanes left out follow the first one left in, so that they do not spoil a light common to all others.

@@ -2,7 +2,7 @@
 
 use super::record::Falloff;
 use super::table::LightTable;
-use gonio_simd::{Lanes, Spectrum, U, Vec3};
+use gonio_simd::{Lanes, Rgb, U, Vec3};
 
 impl LightTable {
     /// Whether a light falls with distance otherwise than by nature.
@@ -12,7 +12,7 @@ impl LightTable {
 
     /// What arrives of lights at points, by the way from there in metres.
     #[inline(always)]
-    pub(crate) fn fallen<L: Lanes>(&self, l: L, light: U<L>, way: Vec3<L>, sent: Spectrum<L>) -> Spectrum<L> {
+    pub(crate) fn fallen<L: Lanes>(&self, l: L, light: U<L>, way: Vec3<L>, sent: Rgb<L>) -> Rgb<L> {
         if self.falloffs.is_empty() {
             return sent;
         }

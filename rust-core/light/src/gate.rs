@@ -3,7 +3,7 @@
 use super::record::LightTexture;
 use super::table::LightTable;
 use super::texture::{Placed, TexturePool};
-use gonio_simd::{F, Lanes, M, Rgb, Spectrum, U, Vec3};
+use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
 use std::sync::Arc;
 
 /// What the plane of a filter lets through, in the filter's own units.
@@ -80,15 +80,7 @@ impl LightTable {
 
     /// What is left behind the filters of lights of what their points `on` send towards unit `direction`, over a way in metres.
     #[inline(always)]
-    pub(crate) fn filtered<L: Lanes>(
-        &self,
-        l: L,
-        light: U<L>,
-        on: Vec3<L>,
-        direction: Vec3<L>,
-        way: F<L>,
-        sent: Spectrum<L>,
-    ) -> Spectrum<L> {
+    pub(crate) fn filtered<L: Lanes>(&self, l: L, light: U<L>, on: Vec3<L>, direction: Vec3<L>, way: F<L>, sent: Rgb<L>) -> Rgb<L> {
         if self.gates.numbers.is_empty() {
             return sent;
         }
@@ -102,13 +94,13 @@ impl LightTable {
             if let Some(gate) = self.gates.gates.get(one as usize - 1) {
                 for (filter, placed) in gate {
                     let through = filter.passed(l, &self.gates.pictures, *placed, on, direction, way);
-                    let both = Rgb::new(passed.r * through.r, passed.g * through.g, passed.b * through.b);
+                    let both = passed * through;
                     passed = same.select(both, passed);
                 }
             }
             left = left.and_not(same);
         }
-        sent * Spectrum::reflectance(passed)
+        sent * passed
     }
 }
 

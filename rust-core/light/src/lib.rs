@@ -45,6 +45,7 @@ mod shaded;
 mod shaping;
 mod size;
 mod solid_angle;
+mod spectra;
 mod sphere;
 mod table;
 mod texture;

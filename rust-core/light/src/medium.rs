@@ -5,7 +5,7 @@
 
 use super::row::{ROW, field, flag};
 use super::table::LightTable;
-use gonio_simd::{F, Lanes, Spectrum, U};
+use gonio_simd::{F, Lanes, Rgb, U};
 
 /// How far a place is off a light's surface, over the light's radius, and over the size of its coordinates at least.
 const OFF: [f32; 2] = [1e-4, 4e-6];
@@ -36,7 +36,7 @@ impl LightTable {
     }
     /// What paths see of lights that send so much.
     #[inline(always)]
-    pub(crate) fn seen_outside<L: Lanes>(&self, l: L, light: U<L>, sent: Spectrum<L>) -> Spectrum<L> {
+    pub(crate) fn seen_outside<L: Lanes>(&self, l: L, light: U<L>, sent: Rgb<L>) -> Rgb<L> {
         if self.media.is_empty() {
             return sent;
         }

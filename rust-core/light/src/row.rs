@@ -1,7 +1,7 @@
 //! Rows of the light table: the words of one light, read lane by lane.
 
 use super::light_kind::LightKind;
-use gonio_simd::{F, Lanes, M, Rgb, Spectrum, U, Vec3};
+use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
 
 /// Values in a row: six cache lines, some of them spare.
 pub(crate) const ROW: usize = 96;
@@ -162,17 +162,11 @@ impl<'a, L: Lanes> Reader<'a, L> {
         let [x, y, z] = self.triple(field);
         Vec3::new(x, y, z)
     }
-    /// Three values as radiance.
+    /// Three values as a colour: radiance, or a factor on it.
     #[inline(always)]
-    pub(crate) fn radiance(&self, field: usize) -> Spectrum<L> {
+    pub(crate) fn colour(&self, field: usize) -> Rgb<L> {
         let [r, g, b] = self.triple(field);
-        Spectrum::radiance(Rgb::new(r, g, b))
-    }
-    /// Three values as a factor on light.
-    #[inline(always)]
-    pub(crate) fn factor(&self, field: usize) -> Spectrum<L> {
-        let [r, g, b] = self.triple(field);
-        Spectrum::reflectance(Rgb::new(r, g, b))
+        Rgb::new(r, g, b)
     }
     #[inline(always)]
     pub(crate) fn integer(&self, field: usize) -> U<L> {

@@ -7,7 +7,7 @@ use super::light_kind::LightKind;
 use super::row::{Reader, flag};
 use super::table::LightTable;
 use super::tree::LightCache;
-use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
+use gonio_simd::{F, Lanes, M, Rgb, U, Vec3};
 
 /// Light that may arrive at a point.
 #[derive(Clone, Copy, Debug)]
@@ -17,7 +17,7 @@ pub struct LightSample<L: Lanes> {
     /// Way to the light's point in metres, `f32::MAX` for infinite lights.
     pub distance: F<L>,
     /// Radiance towards the point with shaping and texture, zero where `pdf` is; for delta lights the illuminance on a facing surface.
-    pub radiance: Spectrum<L>,
+    pub radiance: Rgb<L>,
     /// Density per solid angle times the probability of the light; for delta lights that probability alone. Zero where nothing arrives.
     pub pdf: F<L>,
     /// Lights that no ray from here can hit: the sample stands for all of their light.
@@ -99,13 +99,18 @@ impl LightTable {
 }
 
 impl<L: Lanes> LightSample<L> {
+    /// A radiance of 1 from infinitely far, as if it were the only light.
+    #[inline(always)]
+    pub fn from_direction(l: L, wi: Vec3<L>) -> Self {
+        Self { wi, radiance: Rgb::grey(l.f(1.0)), pdf: l.f(1.0), delta: l.m(true), ..Self::nothing(l) }
+    }
     /// No light.
     #[inline(always)]
     fn nothing(l: L) -> Self {
         Self {
             wi: Vec3::splat(l, [0.0, 0.0, 1.0]),
             distance: l.f(f32::MAX),
-            radiance: Spectrum::zero(l),
+            radiance: Rgb::zero(l),
             pdf: l.f(0.0),
             delta: l.m(false),
             light: l.u(0),

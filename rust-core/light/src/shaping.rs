@@ -1,12 +1,12 @@
 //! What narrows a light's beam: focus and cone (UsdLux ShapingAPI), the spot's cone, and the spread of flat lights.
 
 use super::row::{Reader, field, flag};
-use gonio_simd::{F, Lanes, M, Spectrum, Vec3};
+use gonio_simd::{F, Lanes, M, Rgb, Vec3};
 
 /// Factor on the emission towards unit `direction`; 1 for lights without shaping.
 #[inline(always)]
-pub(crate) fn shaping<L: Lanes>(l: L, light: &Reader<'_, L>, direction: Vec3<L>, active: M<L>) -> Spectrum<L> {
-    let one = Spectrum::one(l);
+pub(crate) fn shaping<L: Lanes>(l: L, light: &Reader<'_, L>, direction: Vec3<L>, active: M<L>) -> Rgb<L> {
+    let one = Rgb::grey(l.f(1.0));
     let shaped = active & light.flag(flag::SHAPED);
     if !shaped.any() {
         return one;
@@ -19,17 +19,17 @@ pub(crate) fn shaping<L: Lanes>(l: L, light: &Reader<'_, L>, direction: Vec3<L>,
 
 /// The tint where |cos θ|^focus is 0, white where it is 1.
 #[inline(always)]
-fn focus<L: Lanes>(l: L, light: &Reader<'_, L>, cosine: F<L>) -> Spectrum<L> {
+fn focus<L: Lanes>(l: L, light: &Reader<'_, L>, cosine: F<L>) -> Rgb<L> {
     let exponent = light.value(field::FOCUS);
     let focused = exponent.gt(0.0);
-    let white = Spectrum::one(l);
+    let white = Rgb::grey(l.f(1.0));
     if !focused.any() {
         return white;
     }
     let base = cosine.abs();
     // 0 to a positive power is 0 whatever the logarithm of 0 is.
     let power = base.max(f32::MIN_POSITIVE).pow(exponent).keep_if(base.gt(0.0));
-    let tint = light.factor(field::TINT);
+    let tint = light.colour(field::TINT);
     focused.select(tint.lerp(white, power), white)
 }
 

@@ -61,6 +61,8 @@ pub struct LightTable {
     pub(crate) falloffs: Vec<f32>,
     /// By light, 1 over the squared index of what it stands in; empty where no light stands in anything.
     pub(crate) media: Vec<f32>,
+    /// By light, the number of its spectrum counted from 1, 0 without one; empty where no light has any.
+    pub(crate) spectra: Vec<u32>,
     /// Whether light sampling alone finds some light.
     pub(crate) any_alone: bool,
     /// Whether shading programs know what some lights emit.
@@ -141,6 +143,7 @@ impl LightTable {
             factors,
             falloffs,
             media: Vec::new(),
+            spectra: Vec::new(),
             any_alone,
             any_shaded: records.iter().any(|record| record.shaded),
             gates: Gates::default(),

@@ -43,6 +43,7 @@ fn change_one(s: &mut Settings, key: &str, value: &Bound<'_, PyAny>) -> PyResult
         "integrator" => s.integrator = named(key, value, &Integrator::NAMES)?,
         "caustics" => s.caustics = named(key, value, &Caustics::NAMES)?,
         "guiding" => s.guiding = named(key, value, &Guiding::NAMES)?,
+        "spectral" => s.spectral = value.extract()?,
         "reflective_caustics" => s.caustic_paths[0] = value.extract()?,
         "refractive_caustics" => s.caustic_paths[1] = value.extract()?,
         "clear_roughness" => s.clear_roughness = value.extract()?,

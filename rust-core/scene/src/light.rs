@@ -1,5 +1,6 @@
 //! Light sources.
 
+use super::lamp_spectrum::LampSpectrum;
 use super::{Goniogram, LightFilter, LightQuantity, Linking, Opening, Origin, TextureId, Transform, Visibility};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -170,6 +171,9 @@ pub struct Light {
     /// Factor on its strength, as a dimmer's and its maintenance's (CIE 97) make it.
     #[serde(default = "whole")]
     pub dimming: f32,
+    /// The spectrum of what it sends, whose colour takes the place of the emission's; none: the spectrum is made of the colour.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spectrum: Option<Arc<LampSpectrum>>,
     /// Narrowing of the beam.
     pub shaping: Shaping,
     /// A spot's cone.
@@ -227,6 +231,7 @@ impl Default for Light {
             shape: LightShape::Point,
             emission: Emission::default(),
             quantity: None,
+            spectrum: None,
             dimming: whole(),
             shaping: Shaping::default(),
             spot: None,

@@ -173,6 +173,9 @@ pub struct Settings {
     /// Whether paths go more often where indirect light comes from; for [`Integrator::Path`].
     #[serde(default)]
     pub guiding: Guiding,
+    /// Whether light has wavelengths, three a path, in place of red, green and blue.
+    #[serde(default)]
+    pub spectral: bool,
     /// Whether there are caustics at all: of what reflects, and of what refracts. Without, light that surfaces scatter diffusely does not come from
     /// either. For [`Integrator::Path`].
     #[serde(default = "all_caustics")]
@@ -305,6 +308,7 @@ impl Default for Settings {
             mist: Mist::default(),
             caustics: Caustics::default(),
             guiding: Guiding::default(),
+            spectral: false,
             caustic_paths: all_caustics(),
             clear_roughness: None,
             antialiasing: Antialiasing::default(),

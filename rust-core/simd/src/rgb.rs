@@ -1,6 +1,6 @@
 //! Linear Rec.709 colours, one per lane: what is stored, as textures, parameters, film and passes. Light under way is a [`Spectrum`](crate::Spectrum).
 
-use crate::{F, Lanes, M, Select, Vec3};
+use crate::{F, Lanes, M, One, Select, Vec3};
 use core::ops::Mul;
 
 /// A linear Rec.709 triple in each lane.
@@ -69,6 +69,16 @@ impl<L: Lanes> Rgb<L> {
     pub fn lerp(self, to: Self, t: F<L>) -> Self {
         Self::new(self.r.lerp(to.r, t), self.g.lerp(to.g, t), self.b.lerp(to.b, t))
     }
+    /// Mean of the components.
+    #[inline(always)]
+    pub fn mean(self) -> F<L> {
+        (self.r + self.g + self.b) * (1.0 / 3.0)
+    }
+    /// Whether any component is not zero.
+    #[inline(always)]
+    pub fn is_lit(self) -> M<L> {
+        self.r.abs().max(self.g.abs()).max(self.b.abs()).gt(0.0)
+    }
     /// Components held in `[0, 1]`.
     #[inline(always)]
     pub fn saturate(self) -> Self {
@@ -83,6 +93,12 @@ impl<L: Lanes> Rgb<L> {
     #[inline(always)]
     pub fn keep_if(self, mask: M<L>) -> Self {
         Self::new(self.r.keep_if(mask), self.g.keep_if(mask), self.b.keep_if(mask))
+    }
+}
+
+impl From<Rgb<One>> for [f32; 3] {
+    fn from(c: Rgb<One>) -> Self {
+        [c.r.0, c.g.0, c.b.0]
     }
 }
 
@@ -103,6 +119,13 @@ impl<L: Lanes> Mul<F<L>> for Rgb<L> {
     #[inline(always)]
     fn mul(self, s: F<L>) -> Self {
         Self::new(self.r * s, self.g * s, self.b * s)
+    }
+}
+impl<L: Lanes> Mul for Rgb<L> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, o: Self) -> Self {
+        Self::new(self.r * o.r, self.g * o.g, self.b * o.b)
     }
 }
 impl<L: Lanes> Mul<f32> for Rgb<L> {

@@ -1,12 +1,13 @@
 //! Light under way, one spectrum per lane: what is carried, scattered or emitted. Stored colour is [`Rgb`].
 //!
-//! No other file knows what a spectrum is made of: today three components, linear Rec.709. Colour becomes light by three doors, which differ in what the
-//! colour stands for ([`Spectrum::reflectance`], [`Spectrum::coefficient`], [`Spectrum::radiance`]), and light becomes colour by [`Spectrum::to_rgb`].
-//! ARCHITECTURE.md lists who calls them.
+//! No other file knows what a spectrum is made of: three components, which are linear Rec.709 or stand at three wavelengths. Colour becomes light, and
+//! light colour, by the doors of [`Wavelengths`]. ARCHITECTURE.md lists who opens them.
 
 mod columns;
+mod wavelengths;
 
 pub use columns::{SpectrumColumns, SpectrumItems};
+pub use wavelengths::{Hero, WavelengthColumn, WavelengthTable, Wavelengths};
 
 use crate::{F, Lanes, M, Rgb, Select};
 use core::ops::{Add, AddAssign, Div, Mul, Sub};
@@ -20,22 +21,7 @@ pub struct Spectrum<L: Lanes> {
 }
 
 impl<L: Lanes> Spectrum<L> {
-    /// Door for light: what a surface does to it, a share for each wavelength (pbrt's `RGBAlbedoSpectrum`).
-    #[inline(always)]
-    pub fn reflectance(colour: Rgb<L>) -> Self {
-        Self { r: colour.r, g: colour.g, b: colour.b }
-    }
-    /// Door for light: an index, a length, absorption a metre; any number for each wavelength (pbrt's `RGBUnboundedSpectrum`).
-    #[inline(always)]
-    pub fn coefficient(colour: Rgb<L>) -> Self {
-        Self { r: colour.r, g: colour.g, b: colour.b }
-    }
-    /// Door for light: what something sends, radiance or flux (pbrt's `RGBIlluminantSpectrum`).
-    #[inline(always)]
-    pub fn radiance(colour: Rgb<L>) -> Self {
-        Self { r: colour.r, g: colour.g, b: colour.b }
-    }
-    /// Light as colour to be stored. For the door to film alone.
+    /// The components as colour, where they are linear Rec.709. For tests; [`Wavelengths::to_rgb`] is the door.
     #[inline(always)]
     pub fn to_rgb(self) -> Rgb<L> {
         Rgb::new(self.r, self.g, self.b)

@@ -172,7 +172,7 @@ fn resolve<L: Lanes>(l: L, job: &mut Shading) {
         let wo = Vec3::load(l, [&x[..], &y[..], &z[..]], at);
         surface.resolve(
             l,
-            &Hits { values: &values, at: 0, wo, entering: l.m(true), normals: None, walks: true, numbers: None },
+            &Hits { values: &values, at: 0, wo, entering: l.m(true), normals: None, walks: true, hero: None, numbers: None },
             &mut lobes,
         );
         light.store(lobes.albedo(), at);
@@ -184,7 +184,11 @@ fn sample<L: Lanes>(l: L, job: &mut Shading) {
     let Shading { surface, numbers: [u, v, w], light, pdf, .. } = job;
     let (values, wo) = (ParameterValues::constant(&surface.constants), Vec3::splat(l, VIEW));
     let mut lobes = Lobes::empty(l);
-    surface.resolve(l, &Hits { values: &values, at: 0, wo, entering: l.m(true), normals: None, walks: true, numbers: None }, &mut lobes);
+    surface.resolve(
+        l,
+        &Hits { values: &values, at: 0, wo, entering: l.m(true), normals: None, walks: true, hero: None, numbers: None },
+        &mut lobes,
+    );
     for at in (0..BATCH).step_by(L::COUNT) {
         let sample = kernels::sample(l, &lobes, wo, [l.load(u, at), l.load(v, at), l.load(w, at)]);
         // The value goes with the direction, so that each is computed and shows in the outcome.
@@ -199,7 +203,11 @@ fn evaluate<L: Lanes>(l: L, job: &mut Shading) {
     let Shading { surface, directions: [x, y, z], light, pdf, .. } = job;
     let (values, wo) = (ParameterValues::constant(&surface.constants), Vec3::splat(l, VIEW));
     let mut lobes = Lobes::empty(l);
-    surface.resolve(l, &Hits { values: &values, at: 0, wo, entering: l.m(true), normals: None, walks: true, numbers: None }, &mut lobes);
+    surface.resolve(
+        l,
+        &Hits { values: &values, at: 0, wo, entering: l.m(true), normals: None, walks: true, hero: None, numbers: None },
+        &mut lobes,
+    );
     for at in (0..BATCH).step_by(L::COUNT) {
         let (value, density) = lobes.eval(l, wo, Vec3::load(l, [&x[..], &y[..], &z[..]], at));
         light.store(value, at);

@@ -14,7 +14,7 @@ use gonio::scene::{
     Transform,
 };
 use gonio::transport::kernels;
-use gonio_simd::{Column, Execution, Lanes, SpectrumColumns, Vec3, dispatch};
+use gonio_simd::{Column, Execution, Lanes, SpectrumColumns, Vec3, Wavelengths, dispatch};
 use std::sync::{Arc, atomic::AtomicBool};
 
 struct Sampling {
@@ -135,7 +135,7 @@ fn sample<L: Lanes>(l: L, job: &mut Sampling) {
         let from = LightSampleContext { position: point, normal: up, receiver: l.u(0) };
         let sample = kernels::sample_li(l, &scene.tables, None, &from, &[l.load(u, at), l.load(v, at), l.load(w, at)]);
         sample.wi.store([dx, dy, dz], at);
-        radiance.store(sample.radiance, at);
+        radiance.store(Wavelengths::rgb(l).radiance(sample.radiance), at);
         sample.pdf.store(pdf, at);
     }
 }

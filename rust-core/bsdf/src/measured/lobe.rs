@@ -2,7 +2,7 @@
 
 use super::MeasuredBsdf;
 use super::angles::through;
-use gonio_simd::{F, Lanes, M, Spectrum, Vec3};
+use gonio_simd::{F, Lanes, M, Rgb, Spectrum, Vec3, Wavelengths};
 
 /// What was measured, seen from one side or the other.
 #[derive(Clone, Copy, Debug)]
@@ -10,13 +10,14 @@ pub(crate) struct MeasuredLobe<'s, L: Lanes> {
     bsdf: &'s MeasuredBsdf,
     /// Where the measurement's front is seen.
     front: M<L>,
+    wavelengths: Wavelengths<'s, L>,
 }
 
 impl<'s, L: Lanes> MeasuredLobe<'s, L> {
     /// The lobe of hits that see the measurement's front where `front` says so.
     #[inline(always)]
-    pub(crate) fn new(bsdf: &'s MeasuredBsdf, front: M<L>) -> Self {
-        Self { bsdf, front }
+    pub(crate) fn new(bsdf: &'s MeasuredBsdf, front: M<L>, wavelengths: Wavelengths<'s, L>) -> Self {
+        Self { bsdf, front, wavelengths }
     }
     /// Whether some light may pass through.
     #[inline(always)]
@@ -35,7 +36,7 @@ impl<'s, L: Lanes> MeasuredLobe<'s, L> {
         let mut albedo = Spectrum::zero(l);
         for (side, here) in [self.front, l.m(true).and_not(self.front)].into_iter().enumerate() {
             if here.any() {
-                albedo = here.select(Spectrum::reflectance(self.bsdf.albedos.of_view(l, side, wo)), albedo);
+                albedo = here.select(self.wavelengths.reflectance(self.bsdf.albedos.of_view(l, side, wo)), albedo);
             }
         }
         albedo
@@ -71,7 +72,7 @@ fn eval<L: Lanes>(l: L, lobe: &MeasuredLobe<'_, L>, wo: Vec3<L>, wi: Vec3<L>) ->
             let (wo, wi) = (lobe.seen(wo), lobe.seen(wi));
             let up = Vec3::new(wi.x, wi.y, wi.z.abs());
             let passes = wi.z.lt(0.0);
-            let mut sum = (Spectrum::zero(l), l.f(0.0));
+            let mut sum = (Rgb::zero(l), l.f(0.0));
             for (side, here) in lobe.sides(l).into_iter().enumerate() {
                 let here = here & wo.z.gt(0.0);
                 for (transmitted, through) in [(false, wi.z.gt(0.0)), (true, passes)] {
@@ -82,20 +83,17 @@ fn eval<L: Lanes>(l: L, lobe: &MeasuredLobe<'_, L>, wo: Vec3<L>, wi: Vec3<L>) ->
                     }
                 }
             }
-            sum
+            (lobe.wavelengths.coefficient(sum.0), sum.1)
         },
     )
 }
 
 /// [`MeasuredBsdf::eval_side`], compiled once however many sides there are.
 #[inline(never)]
-fn eval_side<L: Lanes>(l: L, bsdf: &MeasuredBsdf, [side, kind]: [usize; 2], wi: Vec3<L>, wo: Vec3<L>) -> (Spectrum<L>, F<L>) {
+fn eval_side<L: Lanes>(l: L, bsdf: &MeasuredBsdf, [side, kind]: [usize; 2], wi: Vec3<L>, wo: Vec3<L>) -> (Rgb<L>, F<L>) {
     l.vectorize(
         #[inline(always)]
-        || {
-            let (value, pdf) = bsdf.eval_side(l, side, kind == 1, wi, wo);
-            (Spectrum::reflectance(value), pdf)
-        },
+        || bsdf.eval_side(l, side, kind == 1, wi, wo),
     )
 }
 

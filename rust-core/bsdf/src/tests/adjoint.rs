@@ -23,7 +23,16 @@ fn kernel<L: Lanes>(l: L, (view, whole): (&View, bool), numbers: &[[f32; 3]], di
     let geometric = Vec3::splat(l, view.geometric.unwrap_or([0.0, 0.0, 1.0]));
     let normals = Normals { geometric, smooth: Vec3::splat(l, [0.0, 0.0, 1.0]), coat: None };
     let normals = view.geometric.map(|_| normals);
-    let hits = Hits { values: &values, at: 0, wo, entering: l.m(view.entering), normals: normals.as_ref(), walks: true, numbers: None };
+    let hits = Hits {
+        values: &values,
+        at: 0,
+        wo,
+        entering: l.m(view.entering),
+        normals: normals.as_ref(),
+        walks: true,
+        hero: None,
+        numbers: None,
+    };
     let (mut lobes, mut room) = (Lobes::empty(l), Lobes::empty(l));
     view.surface.resolve(l, &hits, &mut lobes);
     let light = LightHits { hits, geometric, whole };

@@ -5,7 +5,7 @@ use super::rows::filmed;
 use crate::energy::floats;
 use crate::film::{Film, SENSITIVITY};
 use crate::parameter as p;
-use gonio_simd::{Execution, Lanes, Rgb, Spectrum, dispatch};
+use gonio_simd::{Execution, Lanes, Rgb, Spectrum, Wavelengths, dispatch};
 
 /// Thickness in nanometres, cosine, normal reflectance, normal colour and drop of the metal, and both reflectances, for a film of index 1.33
 /// over an index of 1.5; from Cycles 5.2.
@@ -43,13 +43,13 @@ const CASES: [Case; 3] = [
 
 #[inline(always)]
 fn light<L: Lanes>(l: L, colour: [f32; 3]) -> Spectrum<L> {
-    Spectrum::reflectance(Rgb::splat(l, colour))
+    Wavelengths::rgb(l).reflectance(Rgb::splat(l, colour))
 }
 
 #[inline(always)]
 fn reflectances<L: Lanes>(l: L, case: &Case, out: &mut [[f32; 3]; 2]) {
     let one = l.f(1.0);
-    let film = Film::new(one, l.f(1.33), l.f(case.thickness), one);
+    let film = Film::new([one, l.f(1.33), l.f(case.thickness)], one, Wavelengths::rgb(l));
     let dielectric = film.over_tinted(l.f(case.cos), l.f(1.5), light(l, case.f0), Spectrum::constant(one));
     let metal = film.over_f82(l.f(case.cos), light(l, case.metal[0]), light(l, case.metal[1]));
     for (out, light) in out.iter_mut().zip([dielectric, metal]) {

@@ -70,8 +70,16 @@ fn kernel<L: Lanes>(l: L, view: &View, job: &mut Job) {
         None => None,
     };
     let inside = view.inside.map(|x| l.f(x));
-    let hits =
-        Hits { values: &values, at: 0, wo, entering: l.m(view.entering), normals: normals.as_ref(), walks: true, numbers: Some(&inside) };
+    let hits = Hits {
+        values: &values,
+        at: 0,
+        wo,
+        entering: l.m(view.entering),
+        normals: normals.as_ref(),
+        walks: true,
+        hero: None,
+        numbers: Some(&inside),
+    };
     let mut lobes = Lobes::empty(l);
     view.surface.resolve(l, &hits, &mut lobes);
     for chunk in job.numbers.chunks(L::COUNT) {

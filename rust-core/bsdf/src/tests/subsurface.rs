@@ -41,7 +41,11 @@ fn albedo<L: Lanes>(l: L, surface: &Surface, wo: [f32; 3], sum: &mut [f64; 3]) {
     let values = ParameterValues::constant(&surface.constants);
     let wo = Vec3::splat(l, wo);
     let mut lobes = Lobes::empty(l);
-    surface.resolve(l, &Hits { values: &values, at: 0, wo, entering: l.m(true), normals: None, walks: true, numbers: None }, &mut lobes);
+    surface.resolve(
+        l,
+        &Hits { values: &values, at: 0, wo, entering: l.m(true), normals: None, walks: true, hero: None, numbers: None },
+        &mut lobes,
+    );
     let mut numbers = Numbers { seed: 7, stock: Vec::new() };
     for _ in 0..WALKS / L::COUNT {
         let u = [numbers.next(l), numbers.next(l), numbers.next(l)];

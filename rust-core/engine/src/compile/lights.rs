@@ -13,6 +13,7 @@ use super::{
     quantity::{self, FarFields},
     textured_emission::{Mean, Probe},
     textures::CompiledTextures,
+    wavelengths::LampSpectra,
 };
 use crate::{
     accel::{Geometry, Instance, RayMask, Shape},
@@ -99,6 +100,7 @@ pub(super) struct CompiledLights {
     pub(super) light_instances: (u32, Vec<u32>),
     pub(super) groups: LightGroups,
     pub(super) linking: CompiledLinking,
+    pub(super) spectra: LampSpectra,
 }
 
 /// Lays out the scene's lights, then the triangles of emissive meshes.
@@ -119,7 +121,10 @@ pub(super) fn compile(
     let mut groups = GroupNames::default();
     let mut light_of = Vec::new();
     let mut filters = CompiledFilters::default();
+    let spectra = LampSpectra::of(scene, diagnostics);
     for (number, light) in scene.lights.iter().enumerate() {
+        let coloured = spectra.coloured(number, light);
+        let light = coloured.as_ref().unwrap_or(light);
         let goniogram = goniograms.number(light, diagnostics);
         report_unused(light, kind(light.shape), diagnostics);
         let group = groups.number(&light.group);
@@ -151,7 +156,20 @@ pub(super) fn compile(
     let (linking, links) = CompiledLinking::new(scene, geometry, &light_of, &triangle_lights, &mut records, diagnostics);
     let table = previous.table(&records, &images, &goniograms, &links, &filters);
     let kept = KeptLights { records, images, goniograms, links, filters, table: Some(table.clone()) };
-    Ok(CompiledLights { table, kept, instances, instance_light, of_light: light_of, triangle_lights, light_instances, groups, linking })
+    let mut table = table;
+    spectra.set(&mut table, &light_of);
+    Ok(CompiledLights {
+        table,
+        kept,
+        instances,
+        instance_light,
+        of_light: light_of,
+        triangle_lights,
+        light_instances,
+        groups,
+        linking,
+        spectra,
+    })
 }
 
 /// The instance of each light that is a triangle, by the first light of each instance.

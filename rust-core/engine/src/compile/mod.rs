@@ -50,6 +50,7 @@ mod textures;
 mod times;
 mod trees;
 mod view;
+mod wavelengths;
 mod whitted;
 
 use cancel::check;
@@ -207,6 +208,7 @@ fn tables(scene: &Scene, bvh: Tlas, looks: &mut Looks, shapes: &mut Shapes, ligh
         any_absorbing,
         bodies,
         emission_in_media: Vec::new(),
+        wavelengths: lights.spectra.table(scene),
         origin,
         geometry,
         materials,

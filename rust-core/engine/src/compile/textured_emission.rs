@@ -59,6 +59,7 @@ impl<'a> Probe<'a> {
             any_absorbing: false,
             bodies: Bodies::default(),
             emission_in_media: Vec::new(),
+            wavelengths: None,
             origin,
         };
         Ok(Self { tables, cancel })

@@ -4,7 +4,7 @@ use crate::light_kind::LightKind;
 use crate::row::{field, flag};
 use crate::table::LightTable;
 use crate::vector::{Vector, add, cross, dot, length, scale, unit_or};
-use gonio_simd::{Lanes, One, Rgb, Spectrum, Vec3};
+use gonio_simd::{Lanes, One, Vec3};
 use std::f64::consts::PI;
 
 /// A light of the table, about its pole.
@@ -127,7 +127,7 @@ impl<'a> Body<'a> {
         let mut sent = [0.0; 3];
         for (k, sent) in sent.iter_mut().enumerate() {
             let [r, g, b] = [0, 1, 2].map(|component| if component == k { 1.0 } else { 0.0 });
-            *sent = shown * f64::from(beam.dot(Spectrum::radiance(Rgb::new(l.f(r), l.f(g), l.f(b)))).to_array()[0]);
+            *sent = shown * f64::from(beam.r.mul_add(r, beam.g.mul_add(g, beam.b * b)).to_array()[0]);
         }
         sent
     }

@@ -26,7 +26,7 @@ use aim::Targets;
 use beams::Beams;
 use choice::Choice;
 use finite::Start;
-use gonio_simd::{F, Lanes, Spectrum, U, Vec3};
+use gonio_simd::{F, Lanes, Rgb, U, Vec3};
 use gonio_table::Distribution2D;
 use row::Own;
 
@@ -58,7 +58,7 @@ pub struct EmittedRay<L: Lanes> {
     pub direction: Vec3<L>,
     /// What the ray carries, in cd/m² · m² · sr: radiance times cosine over the density of light, place and direction. The sum over n rays divided by
     /// n is what the lights send. Zero: no ray.
-    pub flux: Spectrum<L>,
+    pub flux: Rgb<L>,
     /// Index of the light in the table.
     pub light: U<L>,
     /// Way in metres before which the ray carries nothing yet: what it meets sooner blocks it and stays dark. Zero for all lights but facing disks,
@@ -158,6 +158,6 @@ impl<L: Lanes> EmittedRay<L> {
     fn nothing(l: L) -> Self {
         let (nowhere, zero) = (Vec3::splat(l, [0.0; 3]), l.f(0.0));
         let up = Vec3::splat(l, [0.0, 0.0, 1.0]);
-        Self { origin: nowhere, normal: nowhere, direction: up, flux: Spectrum::zero(l), light: l.u(0), clear: zero }
+        Self { origin: nowhere, normal: nowhere, direction: up, flux: Rgb::zero(l), light: l.u(0), clear: zero }
     }
 }

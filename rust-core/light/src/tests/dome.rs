@@ -120,7 +120,7 @@ fn both_halves<L: Lanes>(l: L, table: &LightTable, u: &[Column; 3], out: &mut Co
         let s = sample_li(l, table, None, &from, &numbers);
         let bsdf = s.wi.z.max(0.0) * std::f32::consts::FRAC_1_PI;
         let weight = s.delta.select(l.f(1.0), s.pdf * s.pdf / (s.pdf * s.pdf + bsdf * bsdf));
-        let by_light = (s.radiance.to_rgb().g * s.wi.z.max(0.0) * weight / s.pdf).keep_if(s.pdf.gt(0.0));
+        let by_light = (s.radiance.g * s.wi.z.max(0.0) * weight / s.pdf).keep_if(s.pdf.gt(0.0));
         let (sine, cosine) = numbers[2].sin_cos_turns();
         let r = numbers[1].sqrt();
         let wi = Vec3::new(r * cosine, r * sine, (1.0 - numbers[1]).safe_sqrt());

@@ -1,7 +1,7 @@
 //! Batches of samples through the kernels at any level.
 
 use crate::{EscapedRay, LightCache, LightKind, LightRecord, LightSample, LightSampleContext, LightTable};
-use gonio_simd::{Column, Execution, F, Lanes, M, Spectrum, U, Vec3, dispatch, padded};
+use gonio_simd::{Column, Execution, F, Lanes, M, Rgb, Spectrum, U, Vec3, Wavelengths, dispatch, padded};
 
 /// Samples drawn, column by column.
 #[derive(Default)]
@@ -75,7 +75,7 @@ pub(super) fn eval_hit<L: Lanes>(
     light: U<L>,
     ray: [Vec3<L>; 2],
     mask: M<L>,
-) -> (Spectrum<L>, F<L>) {
+) -> (Rgb<L>, F<L>) {
     l.vectorize(
         #[inline(always)]
         || table.eval_hit(l, light_cache, from, light, ray, mask),
@@ -87,7 +87,7 @@ pub(super) fn eval_hit<L: Lanes>(
 pub(super) fn eval_escaped<L: Lanes>(l: L, table: &LightTable, from: &LightSampleContext<L>, ray: &EscapedRay<L>) -> Spectrum<L> {
     l.vectorize(
         #[inline(always)]
-        || table.eval_escaped(l, None, from, ray, None),
+        || table.eval_escaped(l, None, from, ray, None, Wavelengths::rgb(l)),
     )
 }
 
@@ -109,14 +109,14 @@ fn kernel<L: Lanes>(
         s.wi.store([x, y, z], at);
         s.distance.store(&mut drawn.distance, at);
         let [r, g, b] = &mut drawn.radiance;
-        s.radiance.to_rgb().store([r, g, b], at);
+        s.radiance.store([r, g, b], at);
         s.pdf.store(&mut drawn.pdf, at);
         s.light.store(&mut drawn.light, at);
         let placed = s.distance.lt(f32::MAX) & s.pdf.gt(0.0) & !s.delta;
         let hit = s.wi.mul_add(s.distance, from.position);
         let (radiance, pdf) = eval_hit(l, table, light_cache, &from, s.light, [s.wi, hit], placed);
         let [r, g, b] = &mut drawn.eval_radiance;
-        radiance.to_rgb().store([r, g, b], at);
+        radiance.store([r, g, b], at);
         pdf.store(&mut drawn.eval_pdf, at);
     }
 }

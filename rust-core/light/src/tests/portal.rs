@@ -116,7 +116,7 @@ fn through_windows<L: Lanes>(l: L, table: &LightTable, windows: &LightTable, u: 
         let s = sample_li(l, table, None, &from, &numbers);
         let cosine = s.wi.z.max(0.0);
         let weight = power_heuristic(s.pdf, cosine * std::f32::consts::FRAC_1_PI);
-        let by_light = (s.radiance.to_rgb().g * cosine * weight / s.pdf).keep_if(s.pdf.gt(0.0) & open(s.wi));
+        let by_light = (s.radiance.g * cosine * weight / s.pdf).keep_if(s.pdf.gt(0.0) & open(s.wi));
         let (sine, cosine) = numbers[2].sin_cos_turns();
         let r = numbers[1].sqrt();
         let wi = Vec3::new(r * cosine, r * sine, (1.0 - numbers[1]).safe_sqrt());

@@ -797,6 +797,7 @@ class Scene:
         integrator: str | None = ...,
         caustics: str | None = ...,
         guiding: str | None = ...,
+        spectral: bool | None = ...,
         max_bounces: int | None = ...,
         light_samples: int | None = ...,
         max_diffuse_bounces: int | None = ...,

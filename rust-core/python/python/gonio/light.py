@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from array import array
 from collections.abc import Mapping, Sequence
+from os import PathLike
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypedDict
 
-from ._gonio import _setting_error, blackbody_rgb
+from ._gonio import _setting_error, blackbody_rgb, illuminant, read_spectrum
 from .description import columns, numbers
 from .texture import Texture
 
@@ -40,6 +42,8 @@ class Photometry(TypedDict, total=False):
     group: str
     # Multiplies the radiance over a rectangle or a dome.
     texture: Texture | None
+    # A name such as "LED-B3", a file, wavelengths in nm and power, or what `illuminant` and `read_spectrum` give.
+    spectrum: str | PathLike[str] | Mapping[str, Any] | tuple[Sequence[float], Sequence[float]] | None
 
 
 def light(
@@ -61,6 +65,8 @@ def light(
         given["texture"] = given["texture"].number
     if "spot" in given:
         given["spot"] = dict(zip(("angle_deg", "blend"), numbers("spot", given["spot"], 2), strict=True))
+    if "spectrum" in given:
+        given["spectrum"] = lamp_spectrum(given["spectrum"])
     return {
         "origin": name,
         "shape": emitter,
@@ -70,8 +76,19 @@ def light(
         "transform": columns(transform),
         "visibility": {"camera": visible},
         "casts_shadow": True,
-        **{key: given[key] for key in ("dimming", "spot", "group", "goniogram", "texture") if key in given},
+        **{key: given[key] for key in ("dimming", "spot", "group", "goniogram", "texture", "spectrum") if key in given},
     }
+
+
+def lamp_spectrum(spectrum: Any) -> dict[str, Any]:
+    """A light's spectrum as descriptions have it."""
+    if isinstance(spectrum, (str, PathLike)):
+        path = Path(spectrum)
+        spectrum = read_spectrum(path.read_bytes(), path.name) if path.is_file() else illuminant(str(spectrum))
+    if not isinstance(spectrum, Mapping):
+        wavelengths, power = spectrum
+        spectrum = {"wavelengths_nm": [float(nm) for nm in wavelengths], "power": [float(value) for value in power]}
+    return {key: spectrum[key] for key in ("name", "wavelengths_nm", "power") if key in spectrum}
 
 
 def _quantity(given: Mapping[str, Any]) -> Any:

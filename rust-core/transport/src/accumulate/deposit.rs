@@ -4,11 +4,13 @@ use crate::accumulate::add::add_rgb;
 use crate::accumulate::guiding_notes::GuidingNotes;
 use crate::accumulate::sky_arrivals::SkyArrivals;
 use crate::accumulate::tile_sums::TileSums;
+use crate::state::wavelengths::{SlotWavelengths, at_slots};
 use crate::tables::light_groups::{GroupPasses, UNSEEN};
 use crate::tables::transport::{PathFilter, Transport};
 use crate::words::{code, flag};
 use gonio_light::Arrival;
-use gonio_simd::{Lanes, M, One, Rgb, Spectrum, U};
+use gonio_simd::{Lanes, M, Rgb, Spectrum, U};
+use std::sync::Arc;
 
 /// What stages add to: the sums of the block, and what the light cache learns from.
 #[derive(Debug, Default)]
@@ -21,6 +23,8 @@ pub struct Deposits {
     pub guiding: Option<GuidingNotes>,
     /// Light of the sky by direction, for daylight coefficients; `None` where nobody asks for it.
     pub sky: Option<SkyArrivals>,
+    /// Wavelengths of the slots' paths, where light has any.
+    pub(crate) wavelengths: Option<Arc<SlotWavelengths>>,
 }
 
 /// One register of light that paths found or sampled, clamped; what measured points are sent at once is not.
@@ -65,7 +69,8 @@ impl Deposits {
         if let Some(notes) = &mut self.guiding {
             notes.found(light.slot, light.value, counted);
         }
-        add_rgb(&mut self.sums.radiance, light.slot, to_film(light.value), counted);
+        let colour = self.to_film(light.slot, light.value);
+        add_rgb(&mut self.sums.radiance, light.slot, colour, counted);
         if self.sums.lights.wanted() {
             self.deposit_to_passes(light, counted);
         }
@@ -84,7 +89,8 @@ impl Deposits {
         }
         let specular = chosen & light.specular;
         if transport.passes.specular {
-            add_rgb(&mut self.sums.specular, light.slot, to_film(light.value), specular);
+            let colour = self.to_film(light.slot, light.value);
+            add_rgb(&mut self.sums.specular, light.slot, colour, specular);
         }
         match transport.path_filter {
             PathFilter::All => chosen,
@@ -98,12 +104,14 @@ impl Deposits {
         let Contribution { slot, value, .. } = *light;
         let code = light.code & code::CODES;
         let at_first = code.eq(code::SHARED);
-        self.sums.lights.add(code, slot, to_film(value), chosen.and_not(at_first));
+        let colour = self.to_film(slot, value);
+        self.sums.lights.add(code, slot, colour, chosen.and_not(at_first));
         let Some([diffuse, glossy]) = light.shares else { return };
         let (diffuse, glossy) = (value * diffuse, value * glossy);
         let transmitted = (value - diffuse - glossy).part_of(value);
         for (kind, part) in [diffuse, glossy, transmitted].into_iter().enumerate() {
-            self.sums.lights.add(slot.lanes().u(kind as u32), slot, to_film(part), chosen & at_first & part.is_lit());
+            let colour = self.to_film(slot, part);
+            self.sums.lights.add(slot.lanes().u(kind as u32), slot, colour, chosen & at_first & part.is_lit());
         }
     }
 
@@ -125,20 +133,15 @@ impl Deposits {
             Source::Set(set) => l.gather_integers(&passes.of_set, set.keep_if(chosen)),
             Source::Several => return,
         };
-        self.sums.groups.add(group, light.slot, to_film(light.value), chosen & group.ne(UNSEEN));
+        let colour = self.to_film(light.slot, light.value);
+        self.sums.groups.add(group, light.slot, colour, chosen & group.ne(UNSEEN));
     }
-}
 
-/// Door for light: light that arrived, or an albedo that a pass shows, as colour of the film; see ARCHITECTURE.md.
-#[inline(always)]
-pub(crate) fn to_film<L: Lanes>(light: Spectrum<L>) -> Rgb<L> {
-    light.to_rgb()
-}
-
-/// The same of one lane, R, G, B.
-pub(crate) fn film_numbers(light: Spectrum<One>) -> [f32; 3] {
-    let Rgb { r, g, b } = to_film(light);
-    [r.0, g.0, b.0]
+    /// Door for light: light of some slots' paths that arrived as colour of the film; see ARCHITECTURE.md.
+    #[inline(always)]
+    pub(crate) fn to_film<L: Lanes>(&self, slot: U<L>, light: Spectrum<L>) -> Rgb<L> {
+        at_slots(slot.lanes(), self.wavelengths.as_deref(), slot).to_rgb(light)
+    }
 }
 
 /// The light pass of light that a path finds: `seen` if the camera sees it, direct after one scattering, indirect after more.

@@ -1,6 +1,6 @@
 //! Light by light path expressions: each contribution goes to those that ask for its path.
 
-use crate::accumulate::deposit::{Contribution, Deposits, Source, to_film};
+use crate::accumulate::deposit::{Contribution, Deposits, Source};
 use crate::accumulate::light_sums::LightSums;
 use crate::tables::expressions::{PathExpressions, scattering};
 use crate::words::{code, flag};
@@ -54,8 +54,8 @@ impl Deposits {
         let state = (light.code >> code::STATE_SHIFT) & flag::STATES;
         let sampled = chosen & (light.code & code::SAMPLED).ne(0);
         let found = expressions.accepted(state, kind, chosen.and_not(sampled));
-        let sums = &mut self.sums.expressions;
-        add(sums, found, light.slot, to_film(light.value));
+        let colour = self.to_film(light.slot, light.value);
+        add(&mut self.sums.expressions, found, light.slot, colour);
         let Some([diffuse, glossy]) = light.shares else { return };
         if !sampled.any() {
             return;
@@ -69,7 +69,8 @@ impl Deposits {
         ];
         for (part, scattering) in parts {
             let asked = expressions.accepted(expressions.after(state, scattering), kind, sampled & part.is_lit());
-            add(sums, asked, light.slot, to_film(part));
+            let colour = self.to_film(light.slot, part);
+            add(&mut self.sums.expressions, asked, light.slot, colour);
         }
     }
 }

@@ -6,10 +6,10 @@
 //! Open Image Denoise, documentation of the RT filter: "Albedos" and "Normals" of perfect specular surfaces.
 
 use crate::accumulate::add::add_rgb;
-use crate::accumulate::deposit::to_film;
 use crate::accumulate::tile_sums::TileSums;
+use crate::state::chunk::ChunkContext;
 use crate::state::vertex::Vertex;
-use crate::tables::transport::{PathFilter, Transport};
+use crate::tables::transport::PathFilter;
 use crate::words::flag;
 use gonio_bsdf::Lobes;
 use gonio_camera::sampler::BATCH;
@@ -17,7 +17,14 @@ use gonio_simd::{Lanes, M, U};
 
 /// Adds albedo and normal of the first surfaces that are not specular, times the throughput of the specular path to them.
 #[inline(always)]
-pub(crate) fn add_guides<L: Lanes>(transport: &Transport, point: &Vertex<L>, lobes: &Lobes<'_, L>, present: M<L>, sums: &mut TileSums) {
+pub(crate) fn add_guides<L: Lanes>(
+    chunk: &ChunkContext<'_, L>,
+    point: &Vertex<L>,
+    lobes: &Lobes<'_, L>,
+    present: M<L>,
+    sums: &mut TileSums,
+) {
+    let transport = chunk.transport;
     if !transport.passes.guides || transport.path_filter == PathFilter::ExceptSpecular {
         return;
     }
@@ -28,7 +35,7 @@ pub(crate) fn add_guides<L: Lanes>(transport: &Transport, point: &Vertex<L>, lob
     // Guides know nothing of what the camera stands in.
     let throughput = point.core.throughput * (1.0 / transport.squared_index);
     let [albedo, normal] = &mut sums.guides;
-    add_rgb(albedo, point.core.slot, to_film(lobes.albedo() * throughput), seen);
+    add_rgb(albedo, point.core.slot, chunk.sample.to_film(point.core.slot, lobes.albedo() * throughput), seen);
     add_rgb(normal, point.core.slot, (point.at.frame.z * throughput.max_component()).into(), seen);
 }
 

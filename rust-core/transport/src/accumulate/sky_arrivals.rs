@@ -1,8 +1,8 @@
 //! Light of an even sky by the direction that it came from, of which daylight coefficients are made.
 
-use crate::accumulate::deposit::{Contribution, Deposits, to_film};
+use crate::accumulate::deposit::{Contribution, Deposits};
 use crate::words::code;
-use gonio_simd::{Lanes, M, PADDING, Vec3};
+use gonio_simd::{F, Lanes, M, PADDING, Vec3};
 
 /// Entries that there is room for at first.
 const ROOM: usize = 1 << 14;
@@ -34,7 +34,7 @@ impl SkyArrivals {
     }
 
     #[inline(always)]
-    fn append<L: Lanes>(&mut self, light: &Contribution<L>, direction: Vec3<L>, chosen: M<L>) {
+    fn append<L: Lanes>(&mut self, light: &Contribution<L>, luminance: F<L>, direction: Vec3<L>, chosen: M<L>) {
         let n = self.count;
         if n + PADDING > self.value.len() {
             self.grow();
@@ -44,7 +44,7 @@ impl SkyArrivals {
         direction.x.append(chosen, x, n);
         direction.y.append(chosen, y, n);
         direction.z.append(chosen, z, n);
-        to_film(light.value).luminance().append(chosen, &mut self.value, n);
+        luminance.append(chosen, &mut self.value, n);
         light.code.append(chosen, &mut self.code, n);
         self.count += chosen.count();
     }
@@ -61,8 +61,12 @@ impl Deposits {
     /// Notes light that arrived from a direction, where anybody asks for it.
     #[inline(always)]
     pub(crate) fn note_sky<L: Lanes>(&mut self, light: &Contribution<L>, direction: Vec3<L>, arrived: M<L>) {
+        if self.sky.is_none() {
+            return;
+        }
+        let luminance = self.to_film(light.slot, light.value).luminance();
         if let Some(sky) = &mut self.sky {
-            sky.append(light, direction, arrived);
+            sky.append(light, luminance, direction, arrived);
         }
     }
 }

@@ -1,10 +1,9 @@
 //! AOVs of the first surface that a camera ray meets.
 
 use crate::accumulate::add::{add, add_rgb};
-use crate::accumulate::deposit::to_film;
 use crate::accumulate::tile_sums::TileSums;
 use crate::words::code;
-use gonio_simd::{Column, F, Lanes, M, Rgb, Spectrum, U, Vec3};
+use gonio_simd::{Column, F, Lanes, M, Rgb, U, Vec3};
 
 /// A first surface, by lane.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +21,7 @@ pub(crate) struct FirstSurface<L: Lanes> {
     /// Motion vectors, see [`crate::tables::motion_vectors`].
     pub(crate) motion: Option<[F<L>; 4]>,
     /// Albedos of the kinds of scattering.
-    pub(crate) kinds: Option<[Spectrum<L>; 3]>,
+    pub(crate) kinds: Option<[Rgb<L>; 3]>,
 }
 
 /// Where a first surface is, and what it is like.
@@ -31,7 +30,7 @@ pub(crate) struct SurfaceLook<L: Lanes> {
     pub(crate) depth: F<L>,
     pub(crate) normal: Vec3<L>,
     pub(crate) position: Vec3<L>,
-    pub(crate) albedo: Spectrum<L>,
+    pub(crate) albedo: Rgb<L>,
 }
 
 impl TileSums {
@@ -47,7 +46,7 @@ impl TileSums {
             add(&mut self.depth, slot, look.depth * share, chosen);
             add_rgb(&mut self.normal, slot, (look.normal * share).into(), chosen);
             add_rgb(&mut self.position, slot, (look.position * share).into(), chosen);
-            add_rgb(&mut self.albedo, slot, to_film(look.albedo * share), chosen);
+            add_rgb(&mut self.albedo, slot, look.albedo * share, chosen);
         }
         if let Some(clearness) = surface.clearness {
             add(&mut self.clearness, slot, clearness * share, chosen);
@@ -64,7 +63,7 @@ impl TileSums {
         }
         if let Some(kinds) = surface.kinds {
             for (kind, albedo) in kinds.into_iter().enumerate() {
-                self.lights.add(l.u(code::COLOUR + kind as u32), slot, to_film(albedo * share), chosen);
+                self.lights.add(l.u(code::COLOUR + kind as u32), slot, albedo * share, chosen);
             }
         }
         if let Some([set, object, material, instance, element]) = surface.numbers {

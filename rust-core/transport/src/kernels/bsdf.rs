@@ -83,7 +83,7 @@ pub(crate) fn sample_or_follow<L: Lanes>(
 pub(crate) fn flux<'s, L: Lanes>(
     l: L,
     surface: &'s Surface,
-    light: &LightHits<'_, L>,
+    light: &LightHits<'s, L>,
     lobes: &Lobes<'s, L>,
     to: Vec3<L>,
     room: &mut Lobes<'s, L>,
@@ -108,7 +108,7 @@ pub(crate) fn flux_diffuse<L: Lanes>(l: L, light: &LightHits<'_, L>, room: &Lobe
 pub(crate) fn flux_factor<'s, L: Lanes>(
     l: L,
     surface: &'s Surface,
-    light: &LightHits<'_, L>,
+    light: &LightHits<'s, L>,
     lobes: &Lobes<'s, L>,
     sample: &BsdfSample<L>,
     room: &mut Lobes<'s, L>,

@@ -2,7 +2,7 @@
 
 use crate::tables::Tables;
 use gonio_light::{EscapedRay, LightCache, LightSampleContext};
-use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
+use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3, Wavelengths};
 
 /// A point on a light that a ray hit, and the previous vertex, from which MIS asks for the pdf.
 #[derive(Clone, Copy, Debug)]
@@ -21,10 +21,14 @@ pub(crate) fn eval_light<L: Lanes>(
     light_cache: Option<&LightCache>,
     hit: &LightHit<L>,
     mask: M<L>,
+    wavelengths: Wavelengths<'_, L>,
 ) -> (Spectrum<L>, F<L>) {
     l.vectorize(
         #[inline(always)]
-        || tables.lights.eval_hit(l, light_cache, &hit.from, hit.light, [hit.direction, hit.point], mask),
+        || {
+            let (sent, pdf) = tables.lights.eval_hit(l, light_cache, &hit.from, hit.light, [hit.direction, hit.point], mask);
+            (tables.lights.light(wavelengths, hit.light.keep_if(mask), sent), pdf)
+        },
     )
 }
 
@@ -37,9 +41,10 @@ pub(crate) fn eval_escaped<L: Lanes>(
     from: &LightSampleContext<L>,
     ray: &EscapedRay<L>,
     only: Option<u32>,
+    wavelengths: Wavelengths<'_, L>,
 ) -> Spectrum<L> {
     l.vectorize(
         #[inline(always)]
-        || tables.lights.eval_escaped(l, light_cache, from, ray, only),
+        || tables.lights.eval_escaped(l, light_cache, from, ray, only, wavelengths),
     )
 }

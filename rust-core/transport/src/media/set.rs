@@ -5,7 +5,7 @@
 
 use crate::tables::media::MediumTable;
 use gonio_camera::Surroundings;
-use gonio_simd::{Column, F, Lanes, M, Rgb, Spectrum, SpectrumColumns, U};
+use gonio_simd::{Column, F, Lanes, M, Rgb, Spectrum, SpectrumColumns, U, Wavelengths};
 
 /// Lights further away than this are infinitely far.
 pub(crate) const FAR: f32 = 1e20;
@@ -49,7 +49,7 @@ impl<L: Lanes> MediaSet<L> {
     #[inline(always)]
     pub fn at_place(l: L, place: &Surroundings) -> Self {
         let [r, g, b] = place.absorption.map(|x| l.f(x));
-        Self { names: place.media.map(|names| l.u(names)), solid: Spectrum::coefficient(Rgb::new(r, g, b)) }
+        Self { names: place.media.map(|names| l.u(names)), solid: Wavelengths::rgb(l).coefficient(Rgb::new(r, g, b)) }
     }
 
     /// The names, and what the solid absorbs a metre.

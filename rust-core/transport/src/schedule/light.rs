@@ -78,7 +78,8 @@ impl LightTracer<'_> {
         let set = batch / u64::from(BATCHES);
         let sampler = Sampler::new(self.transport.seed ^ OTHER_SEED, [set as u32, (set >> 32) as u32], BATCHES);
         let runs = Runs::whole((batch % u64::from(BATCHES)) as u32);
-        let first = SampleContext { sampler, runs: &runs, depth: 0 };
+        let wavelengths = ws.draw_wavelengths(self.tables.wavelengths.as_ref(), self.transport.execution, (&sampler, &runs));
+        let first = SampleContext { sampler, runs: &runs, depth: 0, wavelengths: wavelengths.as_deref() };
         ws.times.draw(self.transport.execution, self.transport.shutter.as_deref(), &sampler, &runs, 0);
         let starts = &mut ws.queues.light_paths.starts;
         dispatch!(self.transport.execution, l => emit(l, self.tables, self.emission, &first, batch, starts, &mut ws.paths));
@@ -89,11 +90,18 @@ impl LightTracer<'_> {
         }
         if self.tables.lights.any_shaded() && from_lights {
             let room = ws.queues.light_paths.emission.get_or_insert_default();
-            emit_from_starts(self.tables, self.transport.execution, &ws.paths, &mut ws.queues.light_paths.starts, room);
+            emit_from_starts(
+                self.tables,
+                self.transport.execution,
+                &ws.paths,
+                &mut ws.queues.light_paths.starts,
+                room,
+                wavelengths.as_deref(),
+            );
         }
         self.find_media(ws);
         ws.paths.set_masks();
-        let mut flux = BatchFlux { emitted: self.under_way(ws), ..BatchFlux::default() };
+        let mut flux = BatchFlux { emitted: self.under_way(&first, ws), ..BatchFlux::default() };
         ws.statistics.spent(Stage::Generate, time);
         ws.statistics.camera_rays += ws.paths.count as u64;
         // Stages ask the tracer for tables and settings alone; no path of it starts.
@@ -106,7 +114,7 @@ impl LightTracer<'_> {
             std::mem::swap(&mut ws.paths, &mut ws.queues.next);
             ws.paths.set_masks();
         }
-        flux.cut_off = self.under_way(ws);
+        flux.cut_off = self.under_way(&first, ws);
         flux
     }
 
@@ -139,7 +147,12 @@ impl LightTracer<'_> {
         ws.statistics.rays += ws.paths.count as u64;
         ws.paths.set_times(&ws.times);
         find_surfaces(tables, transport, &ws.paths, &mut ws.nearest);
-        receiver.travelled(&Segments::new(&tables.materials.media, &ws.paths, &ws.nearest.hits, &ws.queues.light_paths.starts));
+        receiver.travelled(&Segments::new(
+            &tables.materials.media,
+            (&ws.paths, &ws.nearest.hits),
+            &ws.queues.light_paths.starts,
+            sample.wavelengths,
+        ));
         ws.queues.next.clear();
         // What light paths bring of caustics alone is dimmed by what scatters: camera paths find the scattered light.
         if tables.materials.media.scatters() && !self.wanted.specular_only {
@@ -150,7 +163,7 @@ impl LightTracer<'_> {
         let light_paths = &mut ws.queues.light_paths;
         (light_paths.arrivals.count, light_paths.escapes.count) = (0, 0);
         dispatch!(transport.execution, l => {
-            escape(l, tables, &ws.paths, &mut ws.nearest.escaped, &light_paths.starts, &mut light_paths.escapes);
+            escape(l, (tables, sample), &ws.paths, &mut ws.nearest.escaped, &light_paths.starts, &mut light_paths.escapes);
             list_materials(l, tables, &ws.nearest.hits, &mut ws.materials.material_of);
         });
         choose_closures(tables, transport, sample, &mut ws.paths, &ws.nearest.hits, &mut ws.materials, &mut ws.chunk, None);
@@ -171,6 +184,7 @@ impl LightTracer<'_> {
         let rays = &mut ws.queues.light_paths.connections.rays;
         ws.statistics.shadow_rays += rays.count as u64;
         if rays.count > 0 {
+            ws.shadow_trace.wavelengths = None;
             occlude(self.tables, self.transport, false, rays, &mut ws.shadow_trace, &mut ws.chunk);
             Splat::collect(rays, &ws.shadow_trace.blocked, splats);
             rays.count = 0;
@@ -178,8 +192,8 @@ impl LightTracer<'_> {
     }
 
     /// Flux of the paths under way.
-    fn under_way(&self, ws: &Workspace) -> [f64; 3] {
-        dispatch!(self.transport.execution, l => sum_flux(l, ws))
+    fn under_way(&self, sample: &SampleContext<'_>, ws: &Workspace) -> [f64; 3] {
+        dispatch!(self.transport.execution, l => sum_flux(l, sample, ws))
     }
 }
 
@@ -189,12 +203,12 @@ const BATCHES: u32 = 256;
 const OTHER_SEED: u32 = 0x6c62_272e;
 
 #[inline(always)]
-fn sum_flux<L: gonio_simd::Lanes>(l: L, ws: &Workspace) -> [f64; 3] {
+fn sum_flux<L: gonio_simd::Lanes>(l: L, sample: &SampleContext<'_>, ws: &Workspace) -> [f64; 3] {
     let mut sum = [0.0; 3];
     for at in (0..ws.paths.count).step_by(L::COUNT) {
         let path = l.iota() + at as u32;
         let flux = ws.queues.light_paths.starts.carried(l, ws.paths.track(l, path).slot, ws.paths.carried(l, path).throughput);
-        let flux = crate::accumulate::deposit::to_film(flux);
+        let flux = sample.to_film(ws.paths.track(l, path).slot, flux);
         let alive = L::COUNT.min(ws.paths.count - at);
         for (sum, column) in sum.iter_mut().zip([flux.r, flux.g, flux.b]) {
             *sum += column.to_array()[..alive].iter().map(|x| f64::from(*x)).sum::<f64>();

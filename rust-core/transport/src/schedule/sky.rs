@@ -18,7 +18,8 @@ impl Tracer<'_> {
         let Start::Sensors(sensors) = self.start else { return };
         let chosen = chosen.start..chosen.end.min(chosen.start + BATCH);
         let sampler = Sampler::new(self.transport.seed, [0; 2], 1);
-        let context = SampleContext { sampler, runs: &Runs::whole(0), depth: 0 };
+        let context = SampleContext { sampler, runs: &Runs::whole(0), depth: 0, wavelengths: None };
+        ws.deposits.wavelengths = None;
         let together = hits_together(directions.len().max(1));
         dispatch!(self.transport.execution, l => queue_sensors(l, sensors, chosen.clone(), &mut ws.queues.measure));
         for first in (0..ws.queues.measure.count).step_by(together) {

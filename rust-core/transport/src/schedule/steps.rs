@@ -110,7 +110,8 @@ fn shade_hits<L: Lanes, I: Integrator>(
     let source = ChunkSource { order, count, rays: ChunkRays::Paths(paths) };
     kernels::surface_points(l, tables, &material.program, hits, &source, &mut columns.surface);
     let start = statistics.spent(Stage::Surface, start);
-    let ChunkColumns { surface, scratch, outputs, shader_outputs } = columns;
+    columns.wavelengths.fill(sample.wavelengths, order[..count].iter().map(|path| paths.slot(*path as usize)));
+    let ChunkColumns { surface, scratch, outputs, shader_outputs, .. } = columns;
     if let Some(program) = shader {
         // Before the surface's own program bends the normals.
         kernels::evaluate(l, tables, program, surface, count, scratch, shader_outputs);

@@ -12,6 +12,7 @@ use crate::stage::start::generate::{TileArea, generate, generate_at};
 use crate::stage::start::places::{PlaceBatch, PlaceTable, Started, look_at_places, start_places};
 use crate::stage::start::sensors::{SensorTable, start_sensors};
 use crate::state::sample::SampleContext;
+use crate::state::wavelengths::SlotWavelengths;
 use crate::state::workspace::Workspace;
 use crate::statistics::Stage;
 use crate::tables::Tables;
@@ -50,6 +51,14 @@ struct Batch<'a> {
     area: TileArea,
     sampler: Sampler,
     runs: &'a Runs,
+    /// Of its slots' paths, where light has any.
+    wavelengths: Option<&'a SlotWavelengths>,
+}
+
+impl<'a> Batch<'a> {
+    fn sample(&self, depth: u32) -> SampleContext<'a> {
+        SampleContext { sampler: self.sampler, runs: self.runs, depth, wavelengths: self.wavelengths }
+    }
 }
 
 impl Tracer<'_> {
@@ -59,18 +68,22 @@ impl Tracer<'_> {
     pub fn trace(&self, min: [u32; 2], max: [u32; 2], runs: &Runs, ws: &mut Workspace, cancelled: &dyn Fn() -> bool) {
         let tile = [min[0] / TILE as u32, min[1] / TILE as u32];
         let sampler = Sampler::new(self.transport.seed, tile, self.transport.samples);
-        let batch = Batch { area: TileArea { min, max }, sampler, runs };
+        // Trees of rays have few samples: light is colour there.
+        let spectral = !matches!(self.transport.estimator, Estimator::Trees(_));
+        let wavelengths =
+            ws.draw_wavelengths(self.tables.wavelengths.as_ref().filter(|_| spectral), self.transport.execution, (&sampler, runs));
+        let batch = Batch { area: TileArea { min, max }, sampler, runs, wavelengths: wavelengths.as_deref() };
         ws.chunk.surface.lookup_width = self.transport.lookup_width();
         match &self.transport.estimator {
             estimator @ (Estimator::Paths | Estimator::Seen) => {
                 let integrator = PathIntegrator { lit: matches!(estimator, Estimator::Paths) };
                 let first = self.begin(&integrator, &batch, ws);
-                path::follow(self, &integrator, sampler, runs, first, ws, cancelled);
+                path::follow(self, &integrator, batch.sample(first), ws, cancelled);
             }
             Estimator::Trees(samples) => {
                 let integrator = WhittedIntegrator { samples };
                 let first = self.begin(&integrator, &batch, ws);
-                whitted::follow(self, &integrator, sampler, runs, first, ws, cancelled);
+                whitted::follow(self, &integrator, batch.sample(first), ws, cancelled);
             }
         }
         if self.transport.passes.deep.is_some() {
@@ -86,7 +99,9 @@ impl Tracer<'_> {
         self.start_at(places, slots, ws);
         ws.statistics.camera_rays += ws.paths.count as u64;
         let sampler = Sampler::new(self.transport.seed, [0; 2], 1);
-        whitted::follow(self, &WhittedIntegrator { samples }, sampler, &Runs::whole(0), 0, ws, cancelled);
+        ws.deposits.wavelengths = None;
+        let first = SampleContext { sampler, runs: &Runs::whole(0), depth: 0, wavelengths: None };
+        whitted::follow(self, &WhittedIntegrator { samples }, first, ws, cancelled);
     }
 
     /// Finds the nearest hits of camera rays at some raster positions: [`Workspace::hits_by_slot`].
@@ -108,7 +123,7 @@ impl Tracer<'_> {
 
     /// Starts the paths of a batch, and lights its sensors; returns the depth of the paths.
     fn begin<I: Integrator>(&self, integrator: &I, batch: &Batch<'_>, ws: &mut Workspace) -> u32 {
-        let Batch { area, ref sampler, runs } = *batch;
+        let Batch { area, ref sampler, runs, .. } = *batch;
         let time = Instant::now();
         ws.times.draw(self.transport.execution, self.transport.shutter.as_deref(), sampler, runs, area.min[1]);
         let first = match self.start {
@@ -149,9 +164,9 @@ impl Tracer<'_> {
 
     /// Lights the points that are queued, and takes what they started for the batch's paths; returns the depth of the paths.
     fn begin_measuring<I: Integrator>(&self, integrator: &I, batch: &Batch<'_>, ws: &mut Workspace) -> u32 {
-        let context = SampleContext { sampler: batch.sampler, runs: batch.runs, depth: 0 };
-        steps::measure(self, integrator, &context, ws);
-        steps::trace_shadows(self, &context, ws);
+        let context = &batch.sample(0);
+        steps::measure(self, integrator, context, ws);
+        steps::trace_shadows(self, context, ws);
         std::mem::swap(&mut ws.paths, &mut ws.queues.next);
         steps::set_masks(self.tables, &mut ws.paths);
         1

@@ -3,7 +3,9 @@
 use crate::graph::{CHUNK, GraphScratch, OutputColumns, Program, SurfaceColumns};
 use crate::state::paths::Paths;
 use crate::state::sample::SampleContext;
+use crate::state::wavelengths::ChunkWavelengths;
 use crate::tables::Tables;
+use crate::tables::material::ChunkOutputs;
 use crate::tables::transport::Transport;
 use gonio_accel::Hits;
 
@@ -16,6 +18,15 @@ pub(crate) struct ChunkColumns {
     pub(crate) outputs: OutputColumns,
     /// What the program of shader passes computed.
     pub(crate) shader_outputs: OutputColumns,
+    /// Wavelengths of the hits' paths.
+    pub(crate) wavelengths: ChunkWavelengths,
+}
+
+impl ChunkColumns {
+    /// What its parameters are read from.
+    pub(crate) fn outputs(&self) -> ChunkOutputs<'_> {
+        (&self.outputs, self.wavelengths.column())
+    }
 }
 
 /// What shading reads of a chunk: the scene, the settings, the sample, the hits and the paths that made them.

@@ -18,5 +18,6 @@ pub(crate) mod start_room;
 pub(crate) mod textured_emission;
 pub(crate) mod times;
 pub(crate) mod vertex;
+pub(crate) mod wavelengths;
 pub(crate) mod workspace;
 pub(crate) mod workspaces;

@@ -12,11 +12,15 @@ use crate::state::queue::Queues;
 use crate::state::queue::shadow_trace::ShadowTrace;
 use crate::state::queue::walks::WalkHits;
 use crate::state::times::SlotTimes;
+use crate::state::wavelengths::SlotWavelengths;
 use crate::statistics::Statistics;
 use crate::tables::Tables;
 use crate::tables::transport::Transport;
 use crate::words::code;
 use gonio_accel::Hits;
+use gonio_camera::sampler::{Runs, Sampler};
+use gonio_simd::{Execution, WavelengthTable};
+use std::sync::Arc;
 
 /// All that a worker needs to trace a batch; made once a worker, so that no stage allocates.
 #[derive(Debug, Default)]
@@ -35,6 +39,8 @@ pub struct Workspace {
     pub(crate) walk_hits: WalkHits,
     /// When the samples of the batch see.
     pub(crate) times: SlotTimes,
+    /// At which wavelengths they see, where light has any.
+    pub(crate) wavelengths: Option<Arc<SlotWavelengths>>,
     pub(crate) shadow_trace: ShadowTrace,
     /// Light and AOVs of the block under way.
     pub deposits: Deposits,
@@ -45,6 +51,19 @@ pub struct Workspace {
 }
 
 impl Workspace {
+    /// Draws the wavelengths of a batch, where light has any; stages share what is returned.
+    pub(crate) fn draw_wavelengths(
+        &mut self,
+        table: Option<&Arc<WavelengthTable>>,
+        execution: Execution,
+        numbers: (&Sampler, &Runs),
+    ) -> Option<Arc<SlotWavelengths>> {
+        self.deposits.wavelengths = None;
+        SlotWavelengths::draw(execution, table, numbers, &mut self.wavelengths);
+        self.deposits.wavelengths.clone_from(&self.wavelengths);
+        self.wavelengths.clone()
+    }
+
     /// Slots of the current rays, and their hits.
     pub fn hits_by_slot(&self) -> (impl Iterator<Item = u32>, &Hits) {
         ((0..self.paths.count).map(|path| self.paths.slot(path)), &self.nearest.hits)

@@ -5,7 +5,7 @@ use crate::tables::media::MediumTable;
 use crate::tables::shader_passes::ShaderOutputs;
 use gonio_bsdf::Surface;
 use gonio_bsdf::{ParameterValues, parameter::COUNT};
-use gonio_simd::{F, Lanes, Rgb, Spectrum};
+use gonio_simd::{F, Lanes, Rgb, Spectrum, WavelengthColumn, Wavelengths};
 
 /// One compiled closure: a BSDF whose parameters are constants or outputs of a shading program.
 #[derive(Clone, Debug)]
@@ -47,9 +47,9 @@ pub struct SurfaceMaterial {
 impl SurfaceMaterial {
     /// What it emits for light sampling where that is the same everywhere, in every lane.
     #[inline(always)]
-    pub(crate) fn even_radiance<L: Lanes>(&self, l: L) -> Spectrum<L> {
+    pub(crate) fn even_radiance<L: Lanes>(&self, l: L, wavelengths: Wavelengths<'_, L>) -> Spectrum<L> {
         let [r, g, b] = self.even_emission.unwrap_or_default().map(|x| l.f(x));
-        Spectrum::radiance(Rgb::new(r, g, b))
+        wavelengths.radiance(Rgb::new(r, g, b))
     }
 }
 
@@ -203,14 +203,17 @@ impl MaterialTable {
     }
 }
 
+/// What a chunk's program computed, and the wavelengths of its hits.
+pub(crate) type ChunkOutputs<'a> = (&'a OutputColumns, WavelengthColumn<'a>);
+
 /// The parameters of a chunk: constants, and the columns its program computed.
-pub(crate) fn parameter_values<'a>(material: &'a SurfaceMaterial, outputs: &'a OutputColumns) -> ParameterValues<'a> {
-    values_by(&material.surface, &material.program, outputs)
+pub(crate) fn parameter_values<'a>(material: &'a SurfaceMaterial, columns: ChunkOutputs<'a>) -> ParameterValues<'a> {
+    values_by(&material.surface, &material.program, columns)
 }
 
 /// The same by another program of the surface.
-pub(crate) fn values_by<'a>(surface: &'a Surface, program: &Program, outputs: &'a OutputColumns) -> ParameterValues<'a> {
-    let mut values = ParameterValues::constant(&surface.constants);
+pub(crate) fn values_by<'a>(surface: &'a Surface, program: &Program, (outputs, wavelengths): ChunkOutputs<'a>) -> ParameterValues<'a> {
+    let mut values = ParameterValues { wavelengths, ..ParameterValues::constant(&surface.constants) };
     fill_columns(program, outputs, &mut values.columns);
     values
 }

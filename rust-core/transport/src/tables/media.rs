@@ -2,7 +2,7 @@
 
 use crate::tables::fields::{FieldTable, ROW};
 use gonio_bsdf::phase::{Phase, PhaseTable};
-use gonio_simd::{Column, F, Lanes, PADDING, Rgb, Spectrum, U};
+use gonio_simd::{Column, F, Lanes, PADDING, Rgb, Spectrum, U, Wavelengths};
 
 /// A medium (pbrt's `HomogeneousMedium` and `GridMedium`); coefficients a metre, R, G, B.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -92,28 +92,28 @@ impl MediumTable {
     /// Extinction a metre of some rows where density is 1; of even ones none.
     #[inline(always)]
     pub(crate) fn field_extinction<L: Lanes>(&self, l: L, row: U<L>) -> Spectrum<L> {
-        Spectrum::coefficient(gathered(l, &self.field_extinction, row))
+        Wavelengths::rgb(l).coefficient(gathered(l, &self.field_extinction, row))
     }
     /// Extinction a metre of some rows; none of those by a field.
     #[inline(always)]
     pub(crate) fn extinction<L: Lanes>(&self, l: L, row: U<L>) -> Spectrum<L> {
-        Spectrum::coefficient(gathered(l, &self.extinction, row))
+        Wavelengths::rgb(l).coefficient(gathered(l, &self.extinction, row))
     }
     /// Scattering a metre of some rows.
     #[inline(always)]
     pub(crate) fn scattering<L: Lanes>(&self, l: L, row: U<L>) -> Spectrum<L> {
-        Spectrum::coefficient(gathered(l, &self.scattering, row))
+        Wavelengths::rgb(l).coefficient(gathered(l, &self.scattering, row))
     }
     /// Radiance that a metre of some rows sends.
     #[inline(always)]
     pub(crate) fn emission<L: Lanes>(&self, l: L, row: U<L>) -> Spectrum<L> {
-        Spectrum::radiance(gathered(l, &self.emission, row))
+        Wavelengths::rgb(l).radiance(gathered(l, &self.emission, row))
     }
     /// Factors on what media by fields send, by their rows among the fields' glows.
     #[inline(always)]
     pub(crate) fn glow<L: Lanes>(&self, l: L, row: U<L>) -> Spectrum<L> {
         let [r, g, b, _] = l.gather_quads(&self.fields.glow, row * ROW as u32);
-        Spectrum::radiance(Rgb::new(r, g, b))
+        Wavelengths::rgb(l).radiance(Rgb::new(r, g, b))
     }
     /// The phase functions of some rows.
     #[inline(always)]

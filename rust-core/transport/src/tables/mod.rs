@@ -24,6 +24,7 @@ use crate::tables::links::Links;
 use gonio_accel::Tlas;
 use gonio_image::texture::TextureTable;
 use gonio_light::LightTable;
+use gonio_simd::WavelengthTable;
 use material::MaterialTable;
 use matte_names::MatteNames;
 use motion_vectors::NeighbourFrames;
@@ -68,6 +69,8 @@ pub struct Tables {
     pub bodies: Bodies,
     /// By mesh instance, 1 over the squared index of what its surfaces shine into; empty where none shines into glass or the like.
     pub emission_in_media: Vec<f32>,
+    /// What the wavelengths of paths mean, where light has any; else it is computed as colour.
+    pub wavelengths: Option<Arc<WavelengthTable>>,
     /// World position of the rebased origin, metres.
     pub origin: [f64; 3],
 }

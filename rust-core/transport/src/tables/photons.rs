@@ -1,7 +1,7 @@
 //! The photon map: where light paths left flux on surfaces that are not specular, on a hash grid, to be merged with camera paths.
 
 use crate::tables::bright_places::BrightPlaces;
-use gonio_simd::{Lanes, PADDING, Rgb, Spectrum, U, Vec3, padded};
+use gonio_simd::{Lanes, PADDING, Rgb, U, Vec3, padded};
 
 /// Flux that arrived at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,7 +59,7 @@ pub(crate) struct PhotonLanes<L: Lanes> {
     /// Unit direction towards where the light came from.
     pub(crate) wi: Vec3<L>,
     pub(crate) light: U<L>,
-    pub(crate) flux: Spectrum<L>,
+    pub(crate) flux: Rgb<L>,
 }
 
 /// Part of the radius that photons may lie off the plane.
@@ -197,6 +197,6 @@ impl PhotonMap {
     pub(crate) fn photons<L: Lanes>(&self, l: L, number: U<L>) -> PhotonLanes<L> {
         let [x, y, z, light] = l.gather_quads(&self.direction, number << 2);
         let [r, g, b, _] = l.gather_quads(&self.flux, number << 2);
-        PhotonLanes { wi: -Vec3::new(x, y, z), light: light.to_bits(), flux: Spectrum::radiance(Rgb::new(r, g, b)) }
+        PhotonLanes { wi: -Vec3::new(x, y, z), light: light.to_bits(), flux: Rgb::new(r, g, b) }
     }
 }

@@ -1,7 +1,7 @@
 //! Rays from a table, with which light paths may start.
 
 use gonio_light::EmittedRay;
-use gonio_simd::{Lanes, Rgb, Spectrum, U, Vec3};
+use gonio_simd::{Lanes, U, Vec3};
 
 /// Rays that carry flux, each as much as if it were the only one. Rebased world space.
 #[derive(Clone, Debug, Default)]
@@ -35,7 +35,7 @@ impl RayTable {
             origin: three(&self.origin),
             normal: Vec3::splat(l, [0.0; 3]),
             direction: three(&self.direction),
-            flux: Spectrum::radiance(Rgb::new(flux.x, flux.y, flux.z)),
+            flux: flux.into(),
             light: l.u(0),
             clear: l.f(0.0),
         }

@@ -97,6 +97,18 @@ pub(super) fn convert(network: &mut Network<'_>, shader: &Shader) -> Option<Clos
     Some(surface.closure)
 }
 
+/// No glass has a lower Abbe number.
+const LEAST_ABBE: f32 = 1.0;
+
+impl Surface<'_, '_> {
+    /// How much what passes is bent by its wavelength: 1 over the Abbe number.
+    fn disperses(&mut self, inverse_abbe: f32) {
+        if inverse_abbe > 0.0 {
+            self.closure.set("transmission_dispersion", inverse_abbe);
+        }
+    }
+}
+
 /// OpenPBR 1.1: the block's own model.
 fn open_pbr_surface(surface: &mut Surface<'_, '_>) {
     surface.closure.model = Model::OpenPbr;
@@ -143,7 +155,10 @@ fn open_pbr_surface(surface: &mut Surface<'_, '_>) {
     surface.closure.thin_walled = surface.network.number(surface.shader, "geometry_thin_walled", 0.0) != 0.0;
     surface.closure.normal = surface.direction("geometry_normal");
     surface.scattering("transmission_scatter_anisotropy");
-    surface.left_out(&[("transmission_dispersion_scale", 0.0), ("coat_roughness_anisotropy", 0.0)]);
+    let abbe = surface.network.number(surface.shader, "transmission_dispersion_abbe_number", 20.0);
+    let scale = surface.network.number(surface.shader, "transmission_dispersion_scale", 0.0);
+    surface.disperses(scale / abbe.max(LEAST_ABBE));
+    surface.left_out(&[("coat_roughness_anisotropy", 0.0)]);
     surface.closure.coat_normal = surface.direction("geometry_coat_normal");
     surface.closure.tangent = surface.direction("geometry_tangent");
 }
@@ -210,7 +225,9 @@ fn fill_standard_surface(surface: &mut Surface<'_, '_>, base_weight: f32, base_c
     surface.closure.thin_walled = surface.network.number(surface.shader, "thin_walled", 0.0) != 0.0;
     surface.closure.normal = surface.direction("normal");
     surface.scattering("transmission_scatter_anisotropy");
-    surface.left_out(&[("transmission_dispersion", 0.0), ("coat_anisotropy", 0.0)]);
+    let abbe = surface.network.number(surface.shader, "transmission_dispersion", 0.0);
+    surface.disperses(if abbe > 0.0 { abbe.max(LEAST_ABBE).recip() } else { 0.0 });
+    surface.left_out(&[("coat_anisotropy", 0.0)]);
     surface.closure.coat_normal = surface.direction("coat_normal");
     surface.closure.tangent = surface.direction("tangent");
 }
@@ -248,7 +265,9 @@ fn gltf_pbr(surface: &mut Surface<'_, '_>) {
         cut_by(surface.network, &mut surface.closure, alpha, threshold);
     }
     surface.closure.normal = surface.direction("normal");
-    surface.left_out(&[("dispersion", 0.0)]);
+    // 20 over the Abbe number (KHR_materials_dispersion).
+    let dispersion = surface.network.number(surface.shader, "dispersion", 0.0);
+    surface.disperses(dispersion / 20.0);
     surface.closure.coat_normal = surface.direction("clearcoat_normal");
     surface.closure.tangent = surface.direction("tangent");
 }

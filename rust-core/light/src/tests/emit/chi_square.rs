@@ -33,7 +33,7 @@ pub(super) fn dome_integral(table: &LightTable, height: usize) -> [f64; 3] {
     for i in 0..2 * height * height {
         let (x, y) = (((i % (2 * height)) as f64 + 0.5) / (2 * height) as f64, ((i / (2 * height)) as f64 + 0.5) / height as f64);
         let uv = [l.f(x as f32), l.f(y as f32)];
-        let seen = table.le(l, &light, Vec3::splat(l, [0.0, 0.0, 1.0]), uv).to_rgb();
+        let seen = table.le(l, &light, Vec3::splat(l, [0.0, 0.0, 1.0]), uv);
         let solid = (PI * y).sin() * PI * TAU / (2 * height * height) as f64;
         for (sum, x) in sum.iter_mut().zip([seen.r, seen.g, seen.b]) {
             *sum += f64::from(x.to_array()[0]) * solid;

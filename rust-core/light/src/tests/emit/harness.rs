@@ -40,7 +40,7 @@ fn kernel<L: Lanes>(l: L, sampler: &EmissionSampler, table: &LightTable, u: &[Co
         let [x, y, z] = &mut rays.direction;
         ray.direction.store([x, y, z], at);
         let [r, g, b] = &mut rays.flux;
-        ray.flux.to_rgb().store([r, g, b], at);
+        ray.flux.store([r, g, b], at);
         ray.light.store(&mut rays.light, at);
         ray.clear.store(&mut rays.clear, at);
     }

@@ -13,27 +13,24 @@ use crate::stage::walk::subsurface::{WalkContext, walk};
 use crate::state::sample::SampleContext;
 use crate::state::workspace::Workspace;
 use crate::statistics::Stage;
-use gonio_camera::sampler::{Runs, Sampler};
 use std::time::Instant;
 
 /// Follows all paths to their ends, bounce by bounce.
 pub(crate) fn follow(
     tracer: &Tracer<'_>,
     integrator: &PathIntegrator,
-    sampler: Sampler,
-    runs: &Runs,
-    first: u32,
+    first: SampleContext<'_>,
     ws: &mut Workspace,
     cancelled: &dyn Fn() -> bool,
 ) {
-    for depth in first..MOST_DEPTH {
+    for depth in first.depth..MOST_DEPTH {
         if let Some(notes) = &mut ws.deposits.guiding {
             notes.go_on(&ws.paths);
         }
         if ws.paths.count == 0 || cancelled() {
             break;
         }
-        follow_bounce(tracer, integrator, &SampleContext { sampler, runs, depth }, ws, cancelled);
+        follow_bounce(tracer, integrator, &SampleContext { depth, ..first }, ws, cancelled);
         std::mem::swap(&mut ws.paths, &mut ws.queues.next);
         catcher::join(tracer.tables, &mut ws.paths);
         steps::set_masks(tracer.tables, &mut ws.paths);

@@ -84,9 +84,9 @@ fn select_chunk<L: Lanes>(
         let path = l.load_integers(order, at);
         let mut total = l.f(0.0);
         for one in 0..mix.count {
-            total += likelihood(ClosureWeights::computed(&columns.outputs, one).load(l, at));
+            total += likelihood(ClosureWeights::computed(columns, one).load(l, at));
         }
-        let own = ClosureWeights::computed(&columns.outputs, closure).load(l, at);
+        let own = ClosureWeights::computed(columns, closure).load(l, at);
         let share = likelihood(own) / total.max(1e-20);
         let (throughput, camera_share) = whole.undivided.carried.gather(l, path);
         let numbers = &path.to_array()[..L::COUNT.min(count - at)];

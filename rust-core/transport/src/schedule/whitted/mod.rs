@@ -19,28 +19,25 @@ use crate::stage::shade::catcher;
 use crate::state::sample::SampleContext;
 use crate::state::workspace::Workspace;
 use crate::statistics::Stage;
-use gonio_camera::sampler::{Runs, Sampler};
 use std::time::Instant;
 
 /// Follows the trees of all paths of the workspace to their ends.
 pub(crate) fn follow(
     tracer: &Tracer<'_>,
     integrator: &WhittedIntegrator<'_>,
-    sampler: Sampler,
-    runs: &Runs,
-    first: u32,
+    first: SampleContext<'_>,
     ws: &mut Workspace,
     cancelled: &dyn Fn() -> bool,
 ) {
     ws.queues.branches.prepare();
-    let mut depth = first;
+    let mut depth = first.depth;
     loop {
         if cancelled() {
             ws.queues.branches.waiting.clear();
             return;
         }
         if ws.paths.count > 0 && depth < MOST_DEPTH {
-            follow_batch(tracer, integrator, &SampleContext { sampler, runs, depth }, ws);
+            follow_batch(tracer, integrator, &SampleContext { depth, ..first }, ws);
         }
         match ws.queues.branches.next(&mut ws.paths) {
             Some(next) => depth = next,

@@ -6,6 +6,7 @@ use crate::stage::find::surface::{ChunkRays, ChunkSource};
 use crate::state::chunk::ChunkColumns;
 use crate::state::mix_weights::{ClosureWeights, MixWeights};
 use crate::state::rays::Rays;
+use crate::state::wavelengths::SlotWavelengths;
 use crate::tables::Tables;
 use crate::tables::material::{Mix, Shading};
 use gonio_accel::TransparentHit;
@@ -17,6 +18,8 @@ pub(crate) struct MaterialHits<'a> {
     pub(crate) material: u32,
     pub(crate) hits: &'a [TransparentHit],
     pub(crate) rays: &'a Rays,
+    /// Wavelengths of slots, where light has any, and the rays' slots.
+    pub(crate) wavelengths: Option<(&'a SlotWavelengths, &'a [u32])>,
 }
 
 /// One closure of them.
@@ -49,7 +52,9 @@ pub(crate) fn each_closure<L: Lanes>(
     (weights, columns): (&mut MixWeights, &mut ChunkColumns),
     mut each: impl FnMut(ClosureHits<'_>),
 ) {
-    let MaterialHits { material, hits, rays } = chunk;
+    let MaterialHits { material, hits, rays, wavelengths } = chunk;
+    let (wavelengths, slots) = wavelengths.unzip();
+    columns.wavelengths.fill(wavelengths, hits.iter().map(|hit| slots.map_or(0, |slots| slots[hit.ray as usize])));
     let mut order = [0; CHUNK];
     order.iter_mut().zip(0..hits.len() as u32).for_each(|(place, number)| *place = number);
     let source = &ChunkSource { order: &order, count: hits.len(), rays: ChunkRays::Rays(rays) };
@@ -58,7 +63,7 @@ pub(crate) fn each_closure<L: Lanes>(
         Shading::Mix(mix) => {
             let mix = &tables.materials.mixes[mix as usize];
             kernels::run_program(l, tables, program(mix), hits, source, columns);
-            weights.keep(mix, &columns.outputs);
+            weights.keep(mix, columns);
             for closure in 0..mix.count {
                 let surface = mix.first as usize + closure;
                 each(ClosureHits { surface, weights: Some(weights.of(closure)), hits, source, columns });

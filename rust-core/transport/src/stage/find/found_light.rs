@@ -3,7 +3,7 @@
 //! It is weighted by MIS (multiple importance sampling) against next event estimation.
 
 use crate::accumulate::add::add;
-use crate::accumulate::deposit::{Contribution, Deposits, Source, code_of_found, to_film};
+use crate::accumulate::deposit::{Contribution, Deposits, Source, code_of_found};
 use crate::accumulate::expression_sums::with_state;
 use crate::accumulate::guides::is_specular_path;
 use crate::kernels::{self, LightHit};
@@ -38,14 +38,21 @@ pub(crate) fn add_found(
 
 /// Notes the flux of light paths that left the scene.
 #[inline(always)]
-pub(crate) fn escape<L: Lanes>(l: L, tables: &Tables, paths: &Paths, escaped: &mut Vec<u32>, starts: &LightStarts, escapes: &mut Escapes) {
+pub(crate) fn escape<L: Lanes>(
+    l: L,
+    (tables, sample): (&Tables, &SampleContext<'_>),
+    paths: &Paths,
+    escaped: &mut Vec<u32>,
+    starts: &LightStarts,
+    escapes: &mut Escapes,
+) {
     let count = escaped.len();
     escaped.resize(gonio_simd::padded(count), 0);
     for at in (0..count).step_by(L::COUNT) {
         let alive = l.first(count - at);
         let path = l.load_integers(escaped, at);
         let TrackLanes { slot, flags, .. } = paths.track(l, path);
-        let flux = to_film(starts.carried(l, slot, leaving_scene(l, tables, paths, path, None)));
+        let flux = sample.to_film(slot, starts.carried(l, slot, leaving_scene(l, tables, paths, path, None)));
         let ray = [gather3(l, &paths.rays.origin, path), paths.cone(l, path).direction];
         escapes.append(ray, flux, flags >> flag::BOUNCE_SHIFT, alive);
     }
@@ -102,7 +109,8 @@ fn add_shapes<L: Lanes>(
         let from = paths.previous(l, path);
         let point = direction.mul_add(t, gather3(l, &paths.rays.origin, path));
         let hit = LightHit { light, from, direction, point };
-        let (radiance, pdf) = kernels::eval_light(l, tables, transport.light_cache.as_deref(), &hit, alive);
+        let (radiance, pdf) =
+            kernels::eval_light(l, tables, transport.light_cache.as_deref(), &hit, alive, sample.wavelengths(l, paths.track(l, path).slot));
         let (carried, TrackLanes { slot, flags, .. }) = (paths.carried(l, path), paths.track(l, path));
         let mut weight = hit_weight(carried.pdf, pdf, (flags & flag::DELTA).eq(0));
         if tables.lights.has_factors() {
@@ -162,12 +170,13 @@ fn add_environment<L: Lanes>(
         let (direction, light_cache) = (paths.cone(l, path).direction, transport.light_cache.as_deref());
         let (delta, kind) = ((flags & flag::DELTA).ne(0), (flags >> flag::LAST_SHIFT) & 3);
         let ray = EscapedRay { direction, pdf, first: camera, delta, kind };
-        let all = kernels::eval_escaped(l, tables, light_cache, &from, &ray, None);
+        let wavelengths = sample.wavelengths(l, slot);
+        let all = kernels::eval_escaped(l, tables, light_cache, &from, &ray, None, wavelengths);
         let mut sent = all;
         for number in infinite_left_to_light_paths(tables, transport) {
             let left = transport.is_left_to_light_paths(flags, l.u(number), alive);
             if left.any() {
-                let part = kernels::eval_escaped(l, tables, light_cache, &from, &ray, Some(number));
+                let part = kernels::eval_escaped(l, tables, light_cache, &from, &ray, Some(number), wavelengths);
                 sent = left.select((sent - part).left_of(all), sent);
             }
         }
@@ -184,7 +193,7 @@ fn add_environment<L: Lanes>(
             // A limit holds for all of them together.
             let share = value.abs().max_component() / unclamped.abs().max_component().max(f32::MIN_POSITIVE);
             for number in tables.lights.infinite_lights() {
-                let value = kernels::eval_escaped(l, tables, light_cache, &from, &ray, Some(number)) * throughput * share;
+                let value = kernels::eval_escaped(l, tables, light_cache, &from, &ray, Some(number), wavelengths) * throughput * share;
                 let part = Contribution { value, source: Source::Light(l.u(number)), ..light };
                 let left = transport.is_left_to_light_paths(flags, l.u(number), counted);
                 let lit = (counted & value.is_lit()).and_not(left);

@@ -1,9 +1,9 @@
 //! The ways of light paths in one bounce, each from a scattering to the next surface, or out of the scene.
 
 use super::found_light::transmittance;
-use crate::accumulate::deposit::film_numbers;
 use crate::state::light_paths::LightStarts;
 use crate::state::paths::Paths;
+use crate::state::wavelengths::{SlotWavelengths, at_slots};
 use crate::tables::media::MediumTable;
 use crate::words::flag;
 use gonio_accel::{Hits, NONE};
@@ -16,6 +16,7 @@ pub struct Segments<'a> {
     paths: &'a Paths,
     hits: &'a Hits,
     starts: &'a LightStarts,
+    wavelengths: Option<&'a SlotWavelengths>,
 }
 
 /// One of them; rebased world space.
@@ -32,8 +33,13 @@ pub struct Segment {
 }
 
 impl<'a> Segments<'a> {
-    pub(crate) fn new(media: &'a MediumTable, paths: &'a Paths, hits: &'a Hits, starts: &'a LightStarts) -> Self {
-        Self { media, paths, hits, starts }
+    pub(crate) fn new(
+        media: &'a MediumTable,
+        (paths, hits): (&'a Paths, &'a Hits),
+        starts: &'a LightStarts,
+        wavelengths: Option<&'a SlotWavelengths>,
+    ) -> Self {
+        Self { media, paths, hits, starts, wavelengths }
     }
 
     /// How many there are.
@@ -65,6 +71,6 @@ impl<'a> Segments<'a> {
         let ends = [self.paths.rays.passed.distance(One, path), One.f(distance)];
         let left = transmittance(One, (self.media, None), self.paths, path, ends, One.m(true));
         let flux = self.starts.carried(One, self.paths.track(One, path).slot, self.paths.carried(One, path).throughput);
-        film_numbers(flux * left)
+        at_slots(One, self.wavelengths, self.paths.track(One, path).slot).to_rgb(flux * left).into()
     }
 }

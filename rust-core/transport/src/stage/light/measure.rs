@@ -18,7 +18,7 @@ use crate::tables::transport::{FirstLight, Transport};
 use crate::words::{counts, event, flag};
 use gonio_camera::sampler::dimension;
 use gonio_light::{FixedLightSample, LightSample, SampleWeight};
-use gonio_simd::{F, Frame, Lanes, M, Spectrum, U, Vec3};
+use gonio_simd::{F, Frame, Lanes, M, U, Vec3};
 use std::{
     f32::consts::{FRAC_1_PI, PI},
     ops::Range,
@@ -78,15 +78,7 @@ pub(crate) fn light_from_directions<L: Lanes>(
     for place in range.clone().step_by(L::COUNT) {
         let point = load_point(l, place, l.first(range.end - place), chunk.points);
         for ([x, y, z], number) in directions {
-            let sample = LightSample {
-                wi: Vec3::new(l.f(*x), l.f(*y), l.f(*z)),
-                distance: l.f(f32::MAX),
-                radiance: Spectrum::one(l),
-                pdf: l.f(1.0),
-                delta: l.m(true),
-                light: l.u(0),
-                casts_shadow: l.m(true),
-            };
+            let sample = LightSample::from_direction(l, Vec3::new(l.f(*x), l.f(*y), l.f(*z)));
             queue_shadow_ray(chunk, &point, (&sample, SampleWeight::Fixed(1.0)), l.u(*number), shadows, deposits);
         }
     }
@@ -114,7 +106,13 @@ pub(crate) fn light_and_start<L: Lanes>(
             queue_shadow_ray(chunk, &point, (&sample, SampleWeight::Mis), l.u(0), shadows, deposits);
         }
         if let (Some(photons), true) = (&transport.photons, transport.first_light != FirstLight::Discs) {
-            let irradiance = irradiance(l, &photons.fine, point.at.position, point.at.geometric, point.alive, &mut found);
+            let irradiance = irradiance(
+                context.wavelengths(l, point.core.slot),
+                &photons.fine,
+                [point.at.position, point.at.geometric],
+                point.alive,
+                &mut found,
+            );
             let light = Contribution::sampled(l.u(0), point.core.slot, irradiance * point.core.throughput, l.u(0), None);
             deposits.deposit(transport, &light, point.alive & irradiance.is_lit());
         }
@@ -156,7 +154,9 @@ fn queue_shadow_ray<L: Lanes>(
         return;
     }
     let weight = weight.of(sample, cosine * FRAC_1_PI);
-    let value = sample.radiance * point.core.throughput * (cosine * weight / sample.pdf);
+    let wavelengths = chunk.sample.wavelengths(chunk.l, point.core.slot);
+    let radiance = chunk.tables.lights.light(wavelengths, sample.light, sample.radiance);
+    let value = radiance * point.core.throughput * (cosine * weight / sample.pdf);
     let lit = usable & value.is_lit() & value.abs().max_component().is_finite();
     deposits.note_lost(&point.at, point.alive.and_not(lit));
     let light = Contribution::sampled(sample.light, point.core.slot, value, code, None);

@@ -1,6 +1,6 @@
 //! Vertex merging (photon mapping): camera paths take up the photons about their vertices, but for those that the camera sees directly.
 
-use crate::accumulate::deposit::{Contribution, Deposits, Source, to_film};
+use crate::accumulate::deposit::{Contribution, Deposits, Source};
 use crate::kernels;
 use crate::state::chunk::ChunkContext;
 use crate::state::vertex::Vertex;
@@ -10,7 +10,7 @@ use crate::tables::photons::PhotonMap;
 use crate::words::{code, flag};
 use gonio_bsdf::Lobes;
 use gonio_camera::sampler::dimension;
-use gonio_simd::{F, Lanes, M, PADDING, Spectrum, U, Vec3};
+use gonio_simd::{F, Lanes, M, PADDING, Spectrum, U, Vec3, Wavelengths};
 use std::f32::consts::PI;
 
 /// Photons about the points of a register.
@@ -38,7 +38,7 @@ pub(crate) fn merge<L: Lanes>(
     }
     let scale = left * (1.0 / (PI * map.radius() * map.radius()));
     let value =
-        transport.limits.clamped(gathered(l, map, point, lobes, found, most, None) * point.core.throughput * scale, point.bounces + 2);
+        transport.limits.clamped(gathered(chunk, map, point, lobes, found, most, None) * point.core.throughput * scale, point.bounces + 2);
     let code = ((point.core.flags >> flag::FIRST_SHIFT) & 3) + code::INDIRECT;
     let light = Contribution { slot: point.core.slot, value, code, shares: None, specular: l.m(false), source: Source::Several };
     let counted = deposits.deposit(transport, &light, chosen & value.is_lit() & value.abs().max_component().is_finite());
@@ -47,23 +47,23 @@ pub(crate) fn merge<L: Lanes>(
         return;
     }
     for number in 0..groups.count as u32 {
-        let part = gathered(l, map, point, lobes, found, most, Some((&groups.of_light, number))) * point.core.throughput * scale;
-        deposits.sums.groups.add(l.u(number), point.core.slot, to_film(part), counted & part.is_lit());
+        let part = gathered(chunk, map, point, lobes, found, most, Some((&groups.of_light, number))) * point.core.throughput * scale;
+        deposits.sums.groups.add(l.u(number), point.core.slot, chunk.sample.to_film(point.core.slot, part), counted & part.is_lit());
     }
 }
 
 /// Irradiance that the photons about a register of points bring to their front, R, G, B.
 #[inline(always)]
 pub(crate) fn irradiance<L: Lanes>(
-    l: L,
+    wavelengths: Wavelengths<'_, L>,
     map: &PhotonMap,
-    position: Vec3<L>,
-    normal: Vec3<L>,
+    [position, normal]: [Vec3<L>; 2],
     chosen: M<L>,
     found: &mut Found,
 ) -> Spectrum<L> {
+    let l = position.x.lanes();
     let most = find(l, map, [position, normal], chosen, found);
-    irradiance_of(l, map, found, most, normal)
+    irradiance_of(wavelengths, map, found, most, normal)
 }
 
 /// Where light paths bring what comes straight from lights, at random by the share that they carry on from there: surfaces that camera paths
@@ -88,12 +88,13 @@ pub(crate) fn in_share<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>,
 
 /// Irradiance by listed photons: of those on a normal's side.
 #[inline(always)]
-fn irradiance_of<L: Lanes>(l: L, map: &PhotonMap, found: &Found, most: usize, normal: Vec3<L>) -> Spectrum<L> {
+fn irradiance_of<L: Lanes>(wavelengths: Wavelengths<'_, L>, map: &PhotonMap, found: &Found, most: usize, normal: Vec3<L>) -> Spectrum<L> {
+    let l = normal.x.lanes();
     let mut sum = Spectrum::zero(l);
     for at in 0..most {
         let (number, here) = numbers(l, found, at);
         let photon = map.photons(l, number);
-        sum += photon.flux.keep_if(here & normal.dot(photon.wi).gt(0.0));
+        sum += wavelengths.radiance(photon.flux).keep_if(here & normal.dot(photon.wi).gt(0.0));
     }
     sum * (1.0 / (PI * map.radius() * map.radius()))
 }
@@ -129,7 +130,7 @@ fn numbers<L: Lanes>(l: L, found: &Found, at: usize) -> (U<L>, M<L>) {
 /// What the photons send to the previous vertex, times the area that they are gathered from; of one group of lights, or of all.
 #[inline(always)]
 fn gathered<L: Lanes>(
-    l: L,
+    chunk: &ChunkContext<'_, L>,
     map: &PhotonMap,
     point: &Vertex<L>,
     lobes: &Lobes<'_, L>,
@@ -137,6 +138,7 @@ fn gathered<L: Lanes>(
     most: usize,
     group: Option<(&[u32], u32)>,
 ) -> Spectrum<L> {
+    let (l, wavelengths) = (chunk.l, chunk.sample.wavelengths(chunk.l, point.core.slot));
     let mut sum = Spectrum::zero(l);
     let geometric = point.at.frame.to_local(point.at.geometric);
     for at in 0..most {
@@ -150,7 +152,7 @@ fn gathered<L: Lanes>(
         let cosine = geometric.dot(wi);
         // BSDF × |cos| about the shading normal, for flux that fell on the triangle.
         let value = kernels::eval(l, lobes, point.local_wo, wi) * cosine.abs().max(1e-3).recip();
-        sum += (value * photon.flux).keep_if(here);
+        sum += (value * wavelengths.radiance(photon.flux)).keep_if(here);
     }
     sum
 }

@@ -69,7 +69,8 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
     // Below the triangle BSDF sampling finds nothing, yet its share is left out: wide lights, which have no hard terminator to hide, stay as dark
     // there as the triangle makes them (as in Cycles).
     let weight = weight.of(sample, pdf);
-    let whole = f * sample.radiance * point.core.throughput * (weight / sample.pdf);
+    let radiance = tables.lights.light(chunk.sample.wavelengths(l, point.core.slot), sample.light, sample.radiance);
+    let whole = f * radiance * point.core.throughput * (weight / sample.pdf);
     let (value, ceiling) = clamped(tables, transport, sample.light, whole, point.bounces + 1);
     let lit = usable & value.is_lit() & value.abs().max_component().is_finite();
     deposits.note_lost(&point.at, present.and_not(lit));

@@ -34,6 +34,7 @@ pub(crate) fn trace_shadows(
     if shadows.count == 0 {
         return;
     }
+    trace.wavelengths.clone_from(&deposits.wavelengths);
     catcher::set_shadow_masks(tables, shadows);
     if !tables.links.shadows.is_empty() && linked_shadow::part(tables, shadows, &mut trace.linked) {
         trace.begin(shadows.count);
@@ -143,9 +144,10 @@ fn dim_chunk<L: Lanes>(
     shadows: &mut ShadowRays,
     columns: &mut ChunkColumns,
 ) {
-    let ShadowTrace { weights, factors, .. } = trace;
+    let ShadowTrace { weights, factors, wavelengths, .. } = trace;
     factors.clear();
-    let chunk = MaterialHits { material, hits, rays: &shadows.rays };
+    let wavelengths = wavelengths.as_deref().map(|wavelengths| (wavelengths, &*shadows.slot));
+    let chunk = MaterialHits { material, hits, rays: &shadows.rays, wavelengths };
     each_closure(
         l,
         tables,
@@ -189,8 +191,8 @@ fn add_transmittance<L: Lanes>(l: L, tables: &Tables, mut closure: ClosureHits<'
         return;
     }
     closure.run(l, tables, &material.program);
-    let ClosureHits { weights, hits, columns: ChunkColumns { surface, outputs, .. }, .. } = closure;
-    let values = parameter_values(material, outputs);
+    let ClosureHits { weights, hits, columns, .. } = closure;
+    let (surface, values) = (&columns.surface, parameter_values(material, columns.outputs()));
     for at in (0..hits.len()).step_by(L::COUNT) {
         let frame = Frame::from_normal(load3(l, &surface.shading_normal, at));
         let wo = frame.to_local(load3(l, &surface.wo, at));

@@ -1,6 +1,5 @@
 //! Emission for light sampling of meshes that glow by an image or a pattern: samples carry the mean, here they get what the point emits.
 
-use crate::accumulate::deposit::film_numbers;
 use crate::graph::CHUNK;
 use crate::kernels;
 use crate::stage::find::closures::{ClosureHits, MaterialHits, each_closure};
@@ -14,6 +13,7 @@ use crate::state::queue::shadow_rays::ShadowRays;
 use crate::state::queue::shadow_trace::ShadowTrace;
 use crate::state::rays::Rays;
 use crate::state::textured_emission::{EmissionRoom, EmissionScratch};
+use crate::state::wavelengths::SlotWavelengths;
 use crate::tables::Tables;
 use crate::tables::material::{threshold, values_by};
 use crate::tables::transport::Transport;
@@ -32,12 +32,13 @@ pub(crate) fn multiply(
     if !tables.lights.any_shaded() {
         return;
     }
-    let ShadowTrace { blocked, emission, .. } = trace;
+    let ShadowTrace { blocked, emission, wavelengths, .. } = trace;
     emission.begin(shadows.count);
     dispatch!(transport.execution, l => find_ends(l, tables, &shadows.rays, &shadows.light, blocked, emission));
     let mut ends = std::mem::take(&mut emission.ends);
     for_materials(tables, &mut ends, |material, chunk| {
-        let points = MaterialHits { material, hits: chunk, rays: &shadows.rays };
+        let wavelengths = wavelengths.as_deref().map(|wavelengths| (wavelengths, &*shadows.slot));
+        let points = MaterialHits { material, hits: chunk, rays: &shadows.rays, wavelengths };
         dispatch!(transport.execution, l => emitted_chunk(l, tables, points, emission, columns));
         for (i, end) in chunk.iter().enumerate() {
             shadows.contribution.multiply(end.ray as usize, &emission.emitted, i);
@@ -105,13 +106,15 @@ fn add_emitted<L: Lanes>(l: L, tables: &Tables, mut closure: ClosureHits<'_>, su
     }
     let count = closure.hits.len();
     let Some(program) = &material.textured_emission else {
-        let even = material.even_radiance(l);
-        (0..count).step_by(L::COUNT).for_each(|at| sums.store(sums.load(l, at) + weighted(even, closure.weights, at), at));
+        for at in (0..count).step_by(L::COUNT) {
+            let even = material.even_radiance(l, closure.columns.wavelengths.column().load(l, at));
+            sums.store(sums.load(l, at) + weighted(even, closure.weights, at), at);
+        }
         return;
     };
     closure.run(l, tables, program);
-    let ClosureHits { weights, columns: ChunkColumns { surface, outputs, .. }, .. } = closure;
-    let values = values_by(&material.surface, program, outputs);
+    let ClosureHits { weights, columns, .. } = closure;
+    let (surface, values) = (&columns.surface, values_by(&material.surface, program, columns.outputs()));
     for at in (0..count).step_by(L::COUNT) {
         let frame = Frame::from_normal(load3(l, &surface.shading_normal, at));
         let wo = frame.to_local(load3(l, &surface.wo, at));
@@ -146,7 +149,14 @@ pub struct EmissionPoint {
 }
 
 /// Gives light paths that start at such meshes what the points emit.
-pub(crate) fn emit_from_starts(tables: &Tables, execution: Execution, paths: &Paths, starts: &mut LightStarts, room: &mut EmissionRoom) {
+pub(crate) fn emit_from_starts(
+    tables: &Tables,
+    execution: Execution,
+    paths: &Paths,
+    starts: &mut LightStarts,
+    room: &mut EmissionRoom,
+    wavelengths: Option<&SlotWavelengths>,
+) {
     let (l, first) = (One, tables.light_instances.0);
     let (mut points, mut slots) = (Vec::new(), Vec::new());
     for path in 0..paths.count {
@@ -166,8 +176,10 @@ pub(crate) fn emit_from_starts(tables: &Tables, execution: Execution, paths: &Pa
         });
         slots.push((slot, 1.0 / point.mean.to_array()[0]));
     }
+    let of_points: Vec<u32> = slots.iter().map(|(slot, _)| *slot as u32).collect();
     let mut values = SpectrumColumns::new(points.len());
-    find_emitted(tables, execution, &points, room, &mut values);
+    let wavelengths = wavelengths.map(|wavelengths| (wavelengths, &*of_points));
+    find_emitted(tables, execution, &points, room, &mut values, wavelengths);
     for (number, (slot, inverse_mean)) in slots.into_iter().enumerate() {
         values.scale(number, inverse_mean);
         starts.flux.multiply(slot, &values, number);
@@ -177,12 +189,19 @@ pub(crate) fn emit_from_starts(tables: &Tables, execution: Execution, paths: &Pa
 /// What points emit as light sampling sees it, R, G, B; `values` has a place for each point.
 pub fn emitted(tables: &Tables, execution: Execution, points: &[EmissionPoint], room: &mut EmissionRoom, values: &mut [[f32; 3]]) {
     let mut emitted = SpectrumColumns::new(points.len());
-    find_emitted(tables, execution, points, room, &mut emitted);
-    values.iter_mut().enumerate().for_each(|(number, value)| *value = film_numbers(emitted.load(One, number)));
+    find_emitted(tables, execution, points, room, &mut emitted, None);
+    values.iter_mut().enumerate().for_each(|(number, value)| *value = emitted.load(One, number).to_rgb().into());
 }
 
 /// The same as light.
-fn find_emitted(tables: &Tables, execution: Execution, points: &[EmissionPoint], room: &mut EmissionRoom, values: &mut SpectrumColumns) {
+fn find_emitted(
+    tables: &Tables,
+    execution: Execution,
+    points: &[EmissionPoint],
+    room: &mut EmissionRoom,
+    values: &mut SpectrumColumns,
+    wavelengths: Option<(&SlotWavelengths, &[u32])>,
+) {
     let EmissionRoom { rays, scratch, columns } = room;
     values.clear();
     for (first, points) in points.chunks(CHUNK).enumerate() {
@@ -195,7 +214,8 @@ fn find_emitted(tables: &Tables, execution: Execution, points: &[EmissionPoint],
         }
         let mut ends = std::mem::take(&mut scratch.ends);
         for_materials(tables, &mut ends, |material, chunk| {
-            let points = MaterialHits { material, hits: chunk, rays };
+            let wavelengths = wavelengths.map(|(of_slots, slots)| (of_slots, &slots[first * CHUNK..]));
+            let points = MaterialHits { material, hits: chunk, rays, wavelengths };
             dispatch!(execution, l => emitted_chunk(l, tables, points, scratch, columns));
             for (i, end) in chunk.iter().enumerate() {
                 values.add(first * CHUNK + end.ray as usize, &scratch.emitted, i, 1.0);

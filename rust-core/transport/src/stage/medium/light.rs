@@ -180,7 +180,8 @@ fn send_on<L: Lanes>(
     let (phase, pdf) = way.phase.eval(&tables.materials.media, way.direction, sample.wi);
     let weight = sample.delta.select(l.f(1.0), power_heuristic(of_point, pdf));
     let weight = weight * tables.lights.scattered_factor(l, sample.light, l.u(event::VOLUME));
-    let whole = sample.radiance * way.core.throughput * left * phase * (weight / sample.pdf);
+    let radiance = tables.lights.light(context.sample.wavelengths(l, way.core.slot), sample.light, sample.radiance);
+    let whole = radiance * way.core.throughput * left * phase * (weight / sample.pdf);
     let (value, ceiling) = clamped(tables, transport, sample.light, whole, way.bounces() + 1);
     let lit = usable & value.is_lit() & value.abs().max_component().is_finite();
     let flags = flags(context, way);

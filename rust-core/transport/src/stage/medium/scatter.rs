@@ -4,7 +4,7 @@ use super::context::MediumContext;
 use super::flight::Flight;
 use super::way::Way;
 use crate::accumulate::add::{add, add_rgb};
-use crate::accumulate::deposit::{Deposits, to_film};
+use crate::accumulate::deposit::Deposits;
 use crate::accumulate::guides::is_specular_path;
 use crate::stage::shade::scatter::survival;
 use crate::state::path_core::PathCore;
@@ -49,7 +49,7 @@ pub(super) fn add_seen<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>, scat
         return;
     }
     let albedo = way.phase.scattering / way.extinction.max(f32::MIN_POSITIVE) * core.throughput;
-    let albedo = to_film(albedo * (1.0 / transport.squared_index));
+    let albedo = context.sample.to_film(core.slot, albedo * (1.0 / transport.squared_index));
     add_rgb(&mut deposits.sums.guides[0], core.slot, albedo, scattered & is_specular_path(core.flags, core.slot));
 }
 

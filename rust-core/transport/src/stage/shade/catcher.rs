@@ -4,7 +4,6 @@
 //! From there on slots tell the halves apart: slots of pixels come first, then measured points, then either half.
 
 use crate::accumulate::add::{add, add_rgb};
-use crate::accumulate::deposit::to_film;
 use crate::accumulate::tile_sums::TileSums;
 use crate::kernels;
 use crate::state::chunk::ChunkContext;
@@ -116,9 +115,9 @@ pub(crate) fn add_behind<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &mut Vert
     }
     if transport.shows_environment {
         let ray = EscapedRay { direction, pdf: point.pdf, first: caught, delta: caught, kind: l.u(0) };
-        let radiance = kernels::eval_escaped(l, tables, None, &from, &ray, None);
+        let radiance = kernels::eval_escaped(l, tables, None, &from, &ray, None, chunk.sample.wavelengths(l, point.core.slot));
         let value = transport.limits.clamped(radiance * point.core.throughput, point.bounces);
-        add_rgb(behind, pixel, to_film(value), caught & value.is_lit());
+        add_rgb(behind, pixel, chunk.sample.to_film(point.core.slot, value), caught & value.is_lit());
     }
 }
 

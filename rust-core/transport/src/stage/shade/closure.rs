@@ -40,7 +40,7 @@ pub(crate) fn choose_closures(
     let MaterialOrder { material_of, mixed, weights, .. } = materials;
     for_mixes(tables, material_of, mixed, |mix, chunk, material_of| {
         dispatch!(transport.execution, l => {
-            weigh(l, tables, (mix, chunk), paths, hits, weights, columns);
+            weigh(l, tables, context, (mix, chunk), (paths, hits), weights, columns);
             if let Some(deposits) = deposits.as_deref_mut().filter(|_| mix.emits_apart) {
                 shine_apart(l, (tables, transport, context), (mix, chunk), paths, hits, weights, columns, deposits);
             }
@@ -87,16 +87,17 @@ pub(crate) fn for_mixes(
 fn weigh<L: Lanes>(
     l: L,
     tables: &Tables,
+    sample: &SampleContext<'_>,
     (mix, chunk): (&Mix, &MixChunk),
-    paths: &Paths,
-    hits: &Hits,
+    (paths, hits): (&Paths, &Hits),
     weights: &mut MixWeights,
     columns: &mut ChunkColumns,
 ) {
     let MixChunk { count, ref order } = *chunk;
     let source = ChunkSource { order, count, rays: ChunkRays::Paths(paths) };
     kernels::run_program(l, tables, &mix.program, hits, &source, columns);
-    weights.keep(mix, &columns.outputs);
+    columns.wavelengths.fill(sample.wavelengths, order[..count].iter().map(|path| paths.slot(*path as usize)));
+    weights.keep(mix, columns);
 }
 
 /// Adds what closures emit that do nothing else.

@@ -72,7 +72,7 @@ pub(crate) fn add_first_surface<L: Lanes>(
         },
         uv: if transport.passes.uv { Some(texture_coordinates(chunk, material, point, at)) } else { None },
         motion: motion_vectors(chunk, point, seen, at),
-        kinds: if deposits.sums.lights.wanted() { Some(lobes.albedo_kinds()) } else { None },
+        kinds: if deposits.sums.lights.wanted() { Some(chunk.sample.all_to_film(point.core.slot, lobes.albedo_kinds())) } else { None },
     };
     deposits.sums.add_first_surface(l, &surface, seen);
     if transport.passes.mattes {
@@ -99,7 +99,7 @@ fn look<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, lobes: &Lobes<
         depth: (point.at.position - eye).dot(Vec3::splat(chunk.l, chunk.transport.forward)),
         normal: point.at.frame.z,
         position: point.at.position,
-        albedo: lobes.albedo(),
+        albedo: chunk.sample.to_film(point.core.slot, lobes.albedo()),
     }
 }
 

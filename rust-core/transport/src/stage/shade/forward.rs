@@ -1,12 +1,12 @@
 //! Light paths at a register of points: flux arrives, may be seen by the camera, and is scattered on by the adjoint BSDF.
 
-use crate::accumulate::deposit::{Deposits, code_of_found, film_numbers, to_film};
+use crate::accumulate::deposit::{Deposits, code_of_found};
 use crate::stage::light::measure::MeasureContext;
 use crate::stage::light::merge::in_share;
 use crate::stage::light::nee::{seen_share, shares_of};
 use crate::stage::shade::integrator::Integrator;
 use crate::stage::shade::scatter::{send_on, without_cut_outs};
-use crate::stage::shade::shading::{normals, way_numbers};
+use crate::stage::shade::shading::{hero, normals, way_numbers};
 use crate::state::chunk::ChunkContext;
 use crate::state::light_paths::ArrivalLanes;
 use crate::state::paths::Paths;
@@ -21,7 +21,7 @@ use crate::{geometry::shadow_ray_to, kernels};
 use gonio_bsdf::{BsdfSample, Hits, LightHits, Lobes};
 use gonio_camera::sampler::dimension;
 use gonio_camera::{CameraTable, Placement};
-use gonio_simd::{F, Lanes, M, One, Spectrum, SpectrumColumns, U, Vec3};
+use gonio_simd::{F, Lanes, M, One, Spectrum, SpectrumColumns, U, Vec3, Wavelengths};
 
 /// What of light paths is wanted.
 #[derive(Clone, Copy, Debug)]
@@ -111,12 +111,12 @@ impl Integrator for LightIntegrator<'_> {
         if noted.any() && !material.surface.lobes.straight {
             arrive(chunk, point, noted, at, queues);
         }
-        let values = parameter_values(material, &chunk.columns.outputs);
+        let values = parameter_values(material, chunk.columns.outputs());
         let normals = normals(chunk, material, point, at);
         let entering = l.load(&chunk.columns.surface.side, at).gt(0.0);
         let numbers = way_numbers(chunk, material, point);
-        let hits =
-            Hits { values: &values, at, wo: point.local_wo, entering, normals: normals.as_ref(), walks: true, numbers: numbers.as_ref() };
+        let (hero, wo) = (hero(chunk, material, point), point.local_wo);
+        let hits = Hits { values: &values, at, wo, entering, normals: normals.as_ref(), walks: true, hero, numbers: numbers.as_ref() };
         let whole = self.wanted.is_whole();
         let light = LightHits { hits, geometric: point.at.frame.to_local(point.at.geometric), whole };
         let mut room = Lobes::empty(l);
@@ -198,7 +198,7 @@ fn arrive<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, present: M<L
         side: l.load(&surface.side, at),
         position: point.at.position,
         direction: -point.wo,
-        flux: to_film(starts.carried(l, point.core.slot, point.core.throughput)),
+        flux: chunk.sample.to_film(point.core.slot, starts.carried(l, point.core.slot, point.core.throughput)),
         flags: point.core.flags,
         light: l.gather_integers(&starts.light, point.core.slot),
     };
@@ -212,7 +212,7 @@ fn connect<'s, L: Lanes>(
     chunk: &ChunkContext<'_, L>,
     material: &'s SurfaceMaterial,
     point: &Vertex<L>,
-    (light, lobes): (&LightHits<'_, L>, &Lobes<'s, L>),
+    (light, lobes): (&LightHits<'s, L>, &Lobes<'s, L>),
     chosen: M<L>,
     picture: &Picture<'_>,
     room: &mut Lobes<'s, L>,
@@ -257,14 +257,17 @@ fn connect<'s, L: Lanes>(
     let bounces = straight.select(l.u(1 << flag::BOUNCE_SHIFT), l.u(2 << flag::BOUNCE_SHIFT));
     let code = code_of_found(bounces | event::DIFFUSE, 0);
     let ray = RayLanes { origin: to_lens.origin, direction: to_lens.direction, t_min: l.f(0.0), t_max: to_lens.t_max };
+    // The slot is the pixel's: light becomes colour here.
+    let wavelengths = chunk.sample.wavelengths(l, point.core.slot);
+    let as_colour = |light: Spectrum<L>| Wavelengths::rgb(l).radiance(wavelengths.to_rgb(light));
     queues.light_paths.connections.rays.append_time(time, lit, chunk.transport.shutter.is_some());
     let sent = ShadowLanes {
         ray,
-        contribution: value,
+        contribution: as_colour(value),
         slot: pixel,
         code,
         light,
-        shares: Some(shares),
+        shares: Some(shares.map(as_colour)),
         receiver: None,
         along: point.along(chunk.tables, chunk.transport, to, None),
     };
@@ -326,7 +329,7 @@ pub struct Splat {
 impl Splat {
     /// The splats of the connections that nothing blocked.
     pub(crate) fn collect(rays: &ShadowRays, blocked: &[u8], splats: &mut Vec<Self>) {
-        let three = |columns: &SpectrumColumns, at: usize| film_numbers(columns.load(One, at));
+        let three = |columns: &SpectrumColumns, at: usize| columns.load(One, at).to_rgb().into();
         splats.extend((0..rays.count).filter(|at| blocked[*at] == 0).map(|at| Self {
             pixel: rays.slot[at],
             light: rays.light[at],

@@ -28,7 +28,7 @@ use gonio_bsdf::{
 };
 use gonio_camera::sampler::dimension;
 use gonio_light::hit_weight;
-use gonio_simd::{F, Frame, Lanes, M, Spectrum, Vec3};
+use gonio_simd::{F, Frame, Hero, Lanes, M, Spectrum, Vec3, Wavelengths};
 
 /// Shades a chunk, whose surface columns and parameters are ready.
 #[inline(always)]
@@ -40,7 +40,7 @@ pub(crate) fn shade_chunk<L: Lanes, I: Integrator>(
     deposits: &mut Deposits,
 ) {
     let ChunkContext { l, tables, transport, count, columns, .. } = *chunk;
-    let values = parameter_values(material, &columns.outputs);
+    let values = parameter_values(material, columns.outputs());
     let mut lobes = Lobes::empty(l);
     queues.light_samples.made = false;
     for at in (0..count).step_by(L::COUNT) {
@@ -51,7 +51,9 @@ pub(crate) fn shade_chunk<L: Lanes, I: Integrator>(
         let (wo, entering) = (point.local_wo, l.load(&columns.surface.side, at).gt(0.0));
         let normals = normals(chunk, material, &point, at);
         let numbers = way_numbers(chunk, material, &point);
-        let hits = Hits { values: &values, at, wo, entering, normals: normals.as_ref(), walks: I::WALKS, numbers: numbers.as_ref() };
+        let hero = hero(chunk, material, &point);
+        let (normals, numbers) = (normals.as_ref(), numbers.as_ref());
+        let hits = Hits { values: &values, at, wo, entering, normals, walks: I::WALKS, hero, numbers };
         material.surface.resolve(l, &hits, &mut lobes);
         if transport.limits.caustics != [true; 2] {
             let [reflecting, refracting] = transport.limits.caustics;
@@ -91,6 +93,15 @@ fn load_point<L: Lanes>(chunk: &ChunkContext<'_, L>, material: &SurfaceMaterial,
 fn scattered_diffusely<L: Lanes>(point: &Vertex<L>) -> M<L> {
     let last = (point.core.flags >> flag::LAST_SHIFT) & 3;
     point.alive & last.eq(event::DIFFUSE) & point.bounces.ne(0)
+}
+
+/// The wavelength that goes on alone where the material disperses.
+#[inline(always)]
+pub(crate) fn hero<L: Lanes>(chunk: &ChunkContext<'_, L>, material: &SurfaceMaterial, point: &Vertex<L>) -> Option<Hero<L>> {
+    if !material.surface.lobes.disperses {
+        return None;
+    }
+    chunk.sample.wavelengths(chunk.l, point.core.slot).hero(point.core.throughput)
 }
 
 /// What fibres draw their ways inside by, where the material has such.
@@ -148,7 +159,7 @@ pub(crate) fn guide_and_measure<L: Lanes>(
     let transport = chunk.transport;
     let [non_specular, all_delta] = lobes.specularity(chunk.l);
     point.all_delta = all_delta;
-    add_guides(transport, point, lobes, present, &mut deposits.sums);
+    add_guides(chunk, point, lobes, present, &mut deposits.sums);
     // Beyond the last bounce a path still adds emission: the BSDF half of MIS, whose NEE half was sampled before.
     let going_on = present & point.bounces.lt(transport.limits.max_bounces + 1) & transport.limits.allow(point.core.counts, point.bounces);
     // Nothing comes to where another surface lies.
@@ -176,7 +187,7 @@ pub(crate) fn add_emission_apart<L: Lanes>(
     deposits: &mut Deposits,
 ) {
     let ChunkContext { l, tables, count, columns, .. } = *chunk;
-    let values = parameter_values(material, &columns.outputs);
+    let values = parameter_values(material, columns.outputs());
     for at in (0..count).step_by(L::COUNT) {
         let mut point = load_point(chunk, material, at);
         if tables.any_absorbing {
@@ -244,7 +255,7 @@ fn add_emission<L: Lanes>(
             let light = (first + l.load_integers(&chunk.columns.surface.primitive, at)).keep_if(sampled);
             let from = chunk.paths.previous(l, point.path);
             let hit = LightHit { light, from, direction: -point.wo, point: point.at.position };
-            let (_, pdf) = kernels::eval_light(l, tables, transport.light_cache.as_deref(), &hit, sampled);
+            let (_, pdf) = kernels::eval_light(l, tables, transport.light_cache.as_deref(), &hit, sampled, Wavelengths::rgb(l));
             value = value * hit_weight(point.pdf, pdf, sampled);
         }
         if transport.light_paths.is_some() {

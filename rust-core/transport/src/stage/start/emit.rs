@@ -49,10 +49,11 @@ pub(crate) fn emit<L: Lanes>(
             }
             Emission::Rays(table) => table.rays(l, numbers(l, table.len(), batch, first)),
         };
-        starts.flux.store(ray.flux, first as usize);
+        let flux = tables.lights.light(sample.wavelengths(l, slot), ray.light, ray.flux);
+        starts.flux.store(flux, first as usize);
         ray.light.store(&mut starts.light, first as usize);
         ray.clear.store(&mut starts.clear, first as usize);
-        let carries = ray.flux.is_lit() & ray.flux.abs().max_component().is_finite();
+        let carries = flux.is_lit() & flux.abs().max_component().is_finite();
         paths.append(&started(l, tables, &ray, slot), carries);
     }
 }

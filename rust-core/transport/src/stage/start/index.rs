@@ -102,7 +102,7 @@ fn along(tables: &Tables, bodies: &[Body], rays: &Rays, count: usize, room: &mut
     let mut crossings = std::mem::take(&mut room.crossings);
     let mut squares = vec![1.0; count];
     for_materials(tables, &mut crossings, |material, chunk| {
-        let behind = dispatch!(execution, l => squared(l, tables, MaterialHits { material, hits: chunk, rays }, room));
+        let behind = dispatch!(execution, l => squared(l, tables, MaterialHits { material, hits: chunk, rays, wavelengths: None }, room));
         for (i, crossing) in chunk.iter().enumerate() {
             let square = &mut squares[crossing.ray as usize];
             *square = if room.columns.surface.side[i] < 0.0 { *square * behind[i] } else { *square / behind[i] };
@@ -148,12 +148,12 @@ fn add_square<L: Lanes>(l: L, tables: &Tables, mut closure: ClosureHits<'_>, sum
         return;
     }
     closure.run(l, tables, &material.program);
-    let values = parameter_values(material, &closure.columns.outputs);
+    let values = parameter_values(material, closure.columns.outputs());
     let (wo, mut lobes) = (Vec3::splat(l, [0.0, 0.0, 1.0]), Lobes::empty(l));
     for at in (0..closure.hits.len()).step_by(L::COUNT) {
         let mut square = l.f(1.0);
         if set.transmission && !thin_walled {
-            let seen = Hits { values: &values, at, wo, entering: l.m(true), normals: None, walks: true, numbers: None };
+            let seen = Hits { values: &values, at, wo, entering: l.m(true), normals: None, walks: true, hero: None, numbers: None };
             material.surface.resolve(l, &seen, &mut lobes);
             if let Some(eta) = lobes.eta() {
                 square = eta * eta;

@@ -2,7 +2,6 @@
 //!
 //! A ray from the place leaves each mesh that holds it once more than it enters it. Cycles fills its stack of volumes in the same way.
 
-use crate::accumulate::deposit::film_numbers;
 use crate::media::set::{MediaColumns, MediaSet};
 use crate::stage::find::closures::{ClosureHits, MaterialHits, each_closure};
 use crate::stage::find::sort::for_materials;
@@ -35,7 +34,7 @@ pub(super) fn media_at(tables: &Tables, origin: [f32; 3]) -> ([u32; 2], [f32; 3]
     media.store(MediaSet::everywhere(One, table), 0);
     start_media(tables, Execution::Scalar, &tables.bodies.absorbing, &rays, 1, &mut media, &mut StartRoom::default());
     let (names, solid) = media.load(One, 0).parts();
-    (names.map(|word| word.0), film_numbers(solid))
+    (names.map(|word| word.0), solid.to_rgb().into())
 }
 
 /// Adds to `media` what is where the first `count` rays start, which look along their own directions for the bodies that hold them.
@@ -119,7 +118,7 @@ fn look_up(tables: &Tables, execution: Execution, rays: &Rays, room: &mut StartR
     room.solid.clear();
     room.filling.clear();
     for_materials(tables, &mut crossings, |material, chunk| {
-        dispatch!(execution, l => look_up_chunk(l, tables, MaterialHits { material, hits: chunk, rays }, room));
+        dispatch!(execution, l => look_up_chunk(l, tables, MaterialHits { material, hits: chunk, rays, wavelengths: None }, room));
         for i in 0..chunk.len() {
             let at = room.sides.len();
             room.absorption.add(at, &room.chunk, i, 1.0);
@@ -151,7 +150,7 @@ fn look_up_chunk<L: Lanes>(l: L, tables: &Tables, chunk: MaterialHits<'_>, room:
 fn add_inside<L: Lanes>(l: L, tables: &Tables, mut closure: ClosureHits<'_>, sums: &mut SpectrumColumns) {
     let material = &tables.materials.surfaces[closure.surface];
     closure.run(l, tables, &material.program);
-    let values = parameter_values(material, &closure.columns.outputs);
+    let values = parameter_values(material, closure.columns.outputs());
     for at in (0..closure.hits.len()).step_by(L::COUNT) {
         if material.solid_medium.is_some() {
             break;

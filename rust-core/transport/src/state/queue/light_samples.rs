@@ -2,7 +2,7 @@
 
 use crate::graph::CHUNK;
 use gonio_light::{LightSample, LightTable};
-use gonio_simd::{Column, Lanes, PADDING, SpectrumItems, Vec3};
+use gonio_simd::{Column, Lanes, PADDING, SpectrumItems, Vec3, Wavelengths};
 use std::ops::Range;
 
 /// With more lights than this, groups are the kinds.
@@ -71,7 +71,7 @@ impl LightSampleQueue {
         LightSample {
             wi: Vec3::new(x, y, z),
             distance,
-            radiance,
+            radiance: radiance.to_rgb(),
             pdf,
             delta: (bits & bit::DELTA).ne(0),
             light: l.load_integers(&self.light, at),
@@ -83,7 +83,8 @@ impl LightSampleQueue {
     pub(crate) fn store<L: Lanes>(&mut self, l: L, sample: &LightSample<L>, at: usize) {
         let wi = sample.wi;
         l.store_quads([wi.x, wi.y, wi.z, sample.distance], &mut self.direction, at);
-        self.radiance.store(sample.radiance, sample.pdf, at);
+        // The same numbers, in whichever type the items have.
+        self.radiance.store(Wavelengths::rgb(l).radiance(sample.radiance), sample.pdf, at);
         let bits = l.u(bit::DELTA).keep_if(sample.delta) | l.u(bit::CASTS_SHADOW).keep_if(sample.casts_shadow);
         bits.store(&mut self.bits, at);
     }

@@ -7,13 +7,17 @@ use crate::state::queue::shadow_order::ShadowOrder;
 use crate::state::queue::shadow_rays::SHADOW_ROOM;
 use crate::state::rays::Rays;
 use crate::state::textured_emission::EmissionScratch;
+use crate::state::wavelengths::SlotWavelengths;
 use crate::words::ray_mask;
 use gonio_accel::TransparentHit;
 use gonio_simd::{PADDING, SpectrumColumns};
+use std::sync::Arc;
 
 /// Scratch of the shadow stage.
 #[derive(Debug)]
 pub(crate) struct ShadowTrace {
+    /// Wavelengths of the rays' slots; none where slots are no paths', whose light is colour.
+    pub(crate) wavelengths: Option<Arc<SlotWavelengths>>,
     pub(crate) order: ShadowOrder,
     /// By shadow ray, 1 where something opaque blocks it.
     pub(crate) blocked: Vec<u8>,
@@ -63,6 +67,7 @@ impl Default for LinkedTrace {
 impl Default for ShadowTrace {
     fn default() -> Self {
         Self {
+            wavelengths: None,
             order: ShadowOrder::default(),
             blocked: Vec::new(),
             passed: Vec::new(),

@@ -1,0 +1,127 @@
+//! What the wavelengths of paths mean: the table that kernels read, and the spectra of lamps.
+
+use crate::{
+    error::Diagnostic,
+    light::LightTable,
+    scene::{LampSpectrum, Light, Scene},
+};
+use gonio_simd::{Column, WavelengthTable};
+use gonio_spectrum::{Spectrum, Triples, triples, upsampling};
+use std::sync::{Arc, OnceLock};
+
+/// Spectra of a scene's lamps, each once.
+#[derive(Clone, Debug, Default)]
+pub(super) struct LampSpectra {
+    spectra: Vec<(Arc<LampSpectrum>, Spectrum)>,
+    /// By light of the scene, the number of its spectrum counted from 1; 0 is none.
+    of_light: Vec<u32>,
+}
+
+impl LampSpectra {
+    /// Those of a scene; what is no spectrum is told and left out.
+    pub(super) fn of(scene: &Scene, diagnostics: &mut Vec<Diagnostic>) -> Self {
+        let mut all = Self::default();
+        for light in &scene.lights {
+            let number = light.spectrum.as_ref().map_or(0, |spectrum| all.number(light, spectrum, diagnostics));
+            all.of_light.push(number);
+        }
+        all
+    }
+
+    fn number(&mut self, light: &Light, lamp: &Arc<LampSpectrum>, diagnostics: &mut Vec<Diagnostic>) -> u32 {
+        if let Some(known) = self.spectra.iter().position(|(known, _)| Arc::ptr_eq(known, lamp) || known == lamp) {
+            return known as u32 + 1;
+        }
+        match Spectrum::new(&lamp.name, &lamp.wavelengths_nm, &lamp.power) {
+            Ok(spectrum) => {
+                self.spectra.push((lamp.clone(), spectrum));
+                self.spectra.len() as u32
+            }
+            Err(error) => {
+                diagnostics
+                    .push(Diagnostic::warning(&light.origin, format!("its spectrum cannot be used, its colour stands in for it: {error}")));
+                0
+            }
+        }
+    }
+
+    /// A light as it shines by its spectrum: its luminance in the spectrum's colour.
+    pub(super) fn coloured(&self, number: usize, light: &Light) -> Option<Light> {
+        let (_, spectrum) = self.spectra.get((*self.of_light.get(number)? as usize).checked_sub(1)?)?;
+        let [r, g, b] = light.emission.radiance;
+        let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+        let mut light = light.clone();
+        light.emission.radiance = colour(spectrum).map(|part| part * luminance);
+        Some(light)
+    }
+
+    /// Lets the lights of a table shine by the spectra of the scene's lights that they belong to.
+    pub(super) fn set(&self, table: &mut Arc<LightTable>, of_light: &[u32]) {
+        if self.spectra.is_empty() {
+            return;
+        }
+        let number = |light: usize| of_light.get(light).and_then(|light| self.of_light.get(*light as usize)).copied().unwrap_or(0);
+        let numbers = (0..table.len()).map(number).collect();
+        Arc::make_mut(table).set_spectra(numbers);
+    }
+
+    /// The table of wavelengths, where light is to have any.
+    pub(super) fn table(&self, scene: &Scene) -> Option<Arc<WavelengthTable>> {
+        if !scene.settings.spectral {
+            return None;
+        }
+        static PLAIN: OnceLock<Arc<WavelengthTable>> = OnceLock::new();
+        let plain = PLAIN.get_or_init(|| Arc::new(plain()));
+        if self.spectra.is_empty() {
+            return Some(plain.clone());
+        }
+        let (mut lamps, mut lamp_colours) = (Vec::new(), Vec::new());
+        for (_, spectrum) in &self.spectra {
+            lamps.extend(triples().tabulate(spectrum).into_iter().flat_map(quad));
+            lamp_colours.extend(quad(colour(spectrum)));
+        }
+        Some(Arc::new(WavelengthTable { lamps: column(&lamps), lamp_colours: column(&lamp_colours), ..(**plain).clone() }))
+    }
+}
+
+/// Linear Rec.709 of a spectrum at a luminance of 1.
+fn colour(spectrum: &Spectrum) -> [f32; 3] {
+    let (film, lamp) = (triples().film(), triples().tabulate(spectrum));
+    let mut sum = [0.0; 3];
+    for (film, lamp) in film.iter().zip(&lamp) {
+        for (film, value) in film.iter().zip(lamp) {
+            sum.iter_mut().zip(film).for_each(|(sum, film)| *sum += f64::from(film * value));
+        }
+    }
+    sum.map(|sum| (sum / Triples::COUNT as f64) as f32)
+}
+
+/// The table without lamps.
+fn plain() -> WavelengthTable {
+    let (triples, upsampling) = (triples(), upsampling());
+    let place = |(number, triple): (usize, [f32; 3])| {
+        let [long, middle, short] = triple.map(|nm| (nm - 380.0) / 400.0);
+        [long, middle, short, (number % 3) as f32]
+    };
+    let places: Vec<f32> = triples.centres().into_iter().enumerate().flat_map(place).collect();
+    let film = triples.film().into_iter().flatten().flat_map(quad).collect::<Vec<f32>>();
+    WavelengthTable {
+        rotations: Triples::COUNT as u32,
+        places: column(&places),
+        film: column(&film),
+        polynomials: column(&upsampling.table),
+        resolution: upsampling.resolution as u32,
+        lamps: Column::new(0),
+        lamp_colours: Column::new(0),
+    }
+}
+
+fn quad([a, b, c]: [f32; 3]) -> [f32; 4] {
+    [a, b, c, 0.0]
+}
+
+fn column(values: &[f32]) -> Column {
+    let mut column = Column::new(values.len());
+    column[..values.len()].copy_from_slice(values);
+    column
+}
