@@ -2,7 +2,10 @@
 
 use gonio::{
     measure::{Measurements, Reading, Watch, measure},
-    scene::{DomeFormat, Grid, GridArea, LightShape, Material, Measurand, MeshId, Meter, Origin, Scene, Transform, Visibility},
+    scene::{
+        DomeFormat, Field, Grid, GridArea, Lattice, LightShape, Material, Measurand, Medium, Mesh, MeshId, Meter, Origin, Scene, Transform,
+        Visibility,
+    },
 };
 use gonio_simd::Execution;
 use gonio_tests::scenes::{add_quad, add_triangles, facing_down, floor, light};
@@ -127,6 +130,38 @@ fn half_a_sky_is_a_daylight_factor_of_fifty() {
     let mut watch = Watch { previous: None, cancel: &AtomicBool::new(false), progress: &mut |_| true };
     let error = measure(&dark, Execution::best(), &mut watch).expect_err("no sky").to_string();
     assert!(error.contains("sky"), "{error}");
+}
+
+/// A sky through haze and smoke with fire in it, which lie above the origin and send so much radiance a metre.
+fn through_what_glows(radiance: f32) -> Scene {
+    let emission = [radiance; 3];
+    let mut scene = sampled(floor(0.3), 4096);
+    scene.lights.push(uniform_sky(7.0));
+    // Of all space: nothing would come of the sky through what takes light away.
+    scene.atmosphere = Medium { emission, ..Medium::default() };
+    let smoke = Medium { emission, absorption: [0.3; 3], scattering: [0.2; 3], ..Medium::default() };
+    let lattice = || Lattice::of_values(&[0.5, 1.0, 2.0, 0.5, 1.0, 1.5, 0.2, 0.9], [2; 3]).expect("a lattice");
+    let to_world = Transform::translation([-0.5, 1.0, -0.5]);
+    let field = Field { density: lattice(), heat: Some(lattice()), hottest: 2.0, to_world, ..Field::default() };
+    scene.add_volume(field, smoke);
+    scene
+}
+
+#[test]
+fn no_medium_that_glows_is_daylight() {
+    // An even sky through a slab without bounds that absorbs alone: 2 E₃(τ) of it arrives, 44.3209 % of it at τ = 0.5 (Abramowitz and Stegun 5.1).
+    let mut scene = sampled(Scene::default(), 4096);
+    scene.lights.push(uniform_sky(7.0));
+    let slab = Medium { emission: [40.0; 3], absorption: [0.5; 3], ..Medium::default() };
+    scene.add_filled(Mesh::of_box([-1e3, 0.5, -1e3], [1e3, 1.5, 1e3]), slab, Transform::IDENTITY);
+    let found = reading(&scene, meter([0.0; 3], Measurand::DaylightFactor));
+    assert!(found.standard_error < 0.5, "{found:?}");
+    assert_near(found, 44.3209);
+    // What absorbs and scatters stays, and all else is the same scene.
+    let factor = |radiance| reading(&through_what_glows(radiance), meter([0.0, 0.1, 0.0], Measurand::DaylightFactor));
+    let (dark, glowing) = (factor(0.0), factor(500.0));
+    assert!(dark.value > 80.0 && dark.value < 90.0 && dark.standard_error < 1.0, "{dark:?}");
+    assert_near(glowing, dark.value);
 }
 
 #[test]

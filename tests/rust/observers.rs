@@ -2,7 +2,7 @@
 
 use gonio::{
     measure::{MeterReading, Reading, Watch, glare::cie_position_index, measure},
-    scene::{DomeFormat, Grid, GridArea, LightShape, Material, Measurand, Meter, Origin, Scene, Transform},
+    scene::{DomeFormat, Grid, GridArea, LightShape, Material, Measurand, Medium, Meter, Origin, Scene, Transform},
 };
 use gonio_simd::Execution;
 use gonio_tests::scenes::{add_quad, facing_down, light};
@@ -76,6 +76,17 @@ fn of_rectangle(luminance: f64, [x, y, z]: [f64; 3], [width, depth]: [f64; 2]) -
     let share = |k: usize| (k as f64 + 0.5) / SIDE as f64 - 0.5;
     let points = (0..SIDE * SIDE).map(|k| [x + width * share(k % SIDE), y, z + depth * share(k / SIDE)]);
     of_face(luminance, points, width * depth / (SIDE * SIDE) as f64)
+}
+
+#[test]
+fn glowing_haze_is_background() {
+    // Haze without end that absorbs a and sends e a metre is as bright as e / a all around; nothing comes of the sky. Two metres of it take nothing away.
+    let absorption = 1e-5;
+    let mut scene = under_sky();
+    scene.atmosphere = Medium { absorption: [absorption; 3], emission: [absorption * SKY as f32; 3], ..Medium::default() };
+    let (radius, luminance, place) = (0.15, 40_000.0, [0.0, 1.2, -2.0]);
+    scene.lights.push(light(LightShape::Disk { radius }, facing_down(place), [luminance as f32; 3]));
+    assert_rated(rated(&scene), of_disk(luminance, place, radius));
 }
 
 #[test]

@@ -11,6 +11,7 @@ mod bundle;
 mod camera;
 mod cryptomatte;
 mod curves;
+mod dark;
 mod dicing;
 mod digest;
 mod displacement;

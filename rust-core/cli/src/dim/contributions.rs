@@ -73,7 +73,8 @@ pub(super) fn measured(
     }
     // A scene whose lamps are out has other things to be told than the one that was asked for.
     let (fixed, _) = run.readings(&only)?;
-    put_out(&mut only);
+    only = only.without_emission();
+    only.lights.iter_mut().for_each(|light| light.dimming = 0.0);
     let mut of_groups = Vec::new();
     for group in groups {
         only.settings.seed = only.settings.seed.wrapping_add(1);
@@ -84,21 +85,6 @@ pub(super) fn measured(
         group.lights.iter().for_each(|light| only.lights[*light].dimming = 0.0);
     }
     fixed.into_iter().enumerate().map(|(number, (name, fixed))| area(name, &fixed, number, &of_groups)).collect()
-}
-
-/// Puts out all that shines.
-fn put_out(scene: &mut Scene) {
-    scene.lights.iter_mut().for_each(|light| light.dimming = 0.0);
-    scene.atmosphere.emission = [0.0; 3];
-    for material in &mut scene.materials {
-        material.medium.emission = [0.0; 3];
-        for closure in &mut material.closures {
-            closure.solid.emission = [0.0; 3];
-            if closure.input("emission_color").is_some() {
-                closure.set_colour("emission_color", [0.0; 3]);
-            }
-        }
-    }
 }
 
 /// An area's points, those left out that have no figure in one of the runs.

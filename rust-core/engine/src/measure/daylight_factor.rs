@@ -3,7 +3,7 @@
 use super::sense::Probe;
 use crate::{
     error::{Error, Result},
-    scene::{Light, LightShape, Material, Meter, Origin, Scene},
+    scene::{Light, LightShape, Meter, Origin, Scene},
 };
 
 /// The scene with domes as its only lights, and portals, which only tell where to look for them.
@@ -12,20 +12,11 @@ pub(super) fn under_domes(scene: &Scene, asked: &Origin) -> Result<Scene> {
     if !lights.iter().any(is_dome) {
         return Err(Error::scene(asked, "a daylight factor wants a sky; the scene has no dome"));
     }
-    Ok(Scene { lights, materials: scene.materials.iter().map(without_emission).collect(), ..scene.clone() })
+    Ok(Scene { lights, ..scene.without_emission() })
 }
 
 fn is_dome(light: &Light) -> bool {
     matches!(light.shape, LightShape::Dome { .. })
-}
-
-/// The material as it is in the dark.
-pub(super) fn without_emission(material: &Material) -> Material {
-    let mut material = material.clone();
-    for closure in material.closures.iter_mut().filter(|closure| closure.input("emission_color").is_some()) {
-        closure.set_colour("emission_color", [0.0; 3]);
-    }
-    material
 }
 
 /// The sky over nothing, and a luxmeter that faces its zenith.

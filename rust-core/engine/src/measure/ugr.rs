@@ -5,7 +5,6 @@
 //! not know: where there are any, the rating without it stands beside the other. The background's luminance L_b is the illuminance at the eye without the luminaires' direct light, over π.
 
 use super::{
-    daylight_factor::without_emission,
     eye::{Eye, Share},
     glare::Coverage,
     reading::{Reading, SmallSources},
@@ -65,7 +64,7 @@ pub(super) fn ratings(
 fn under_luminaires(scene: &Scene) -> Scene {
     let lights: Vec<Light> = scene.lights.iter().filter(|light| is_luminaire(light)).cloned().collect();
     let settings = Settings { integrator: Integrator::Direct, ..scene.settings.clone() };
-    Scene { lights, materials: scene.materials.iter().map(without_emission).collect(), settings, ..scene.clone() }
+    Scene { lights, settings, ..scene.without_emission() }
 }
 
 /// By the sum over the sources and the background's illuminance at the eye.

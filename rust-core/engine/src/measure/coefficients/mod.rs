@@ -8,7 +8,6 @@ mod rounds;
 mod straight;
 
 use super::{
-    daylight_factor::without_emission,
     sense::{Probe, placed},
     sensing::unlimited,
     watch::Watch,
@@ -122,7 +121,7 @@ fn under_even_sky(scene: &Scene) -> Scene {
     let emission = Emission { radiance: [1.0; 3], ..Emission::default() };
     let sky = Light { emission, ..Light::new(Origin::new("sky"), shape, Transform::default()) };
     let lights = std::iter::once(sky).chain(scene.lights.iter().filter(|light| light.portal).cloned()).collect();
-    Scene { lights, materials: scene.materials.iter().map(without_emission).collect(), ..scene.clone() }
+    Scene { lights, ..scene.without_emission() }
 }
 
 /// What is traced how.

@@ -1,0 +1,76 @@
+//! A scene whose lights alone send light.
+
+use super::{Closure, Material, Medium, Scene};
+
+impl Scene {
+    /// The scene with its lights as they are, and nothing else that sends light: surfaces, solids, what fills meshes and all of space. What these reflect,
+    /// absorb and scatter stays.
+    pub fn without_emission(&self) -> Self {
+        let materials = self.materials.iter().map(dark_material).collect();
+        Self { materials, atmosphere: dark_medium(&self.atmosphere), ..self.clone() }
+    }
+}
+
+fn dark_material(material: &Material) -> Material {
+    let closures = material.closures.iter().map(dark_closure).collect();
+    Material { closures, medium: dark_medium(&material.medium), ..material.clone() }
+}
+
+fn dark_closure(closure: &Closure) -> Closure {
+    let mut dark = Closure { solid: dark_medium(&closure.solid), ..closure.clone() };
+    if dark.solid.is_clear() && !closure.solid.is_clear() {
+        // A clear one would give its place to absorption by depth.
+        dark.solid.absorption = [f32::MIN_POSITIVE; 3];
+    }
+    if dark.input("emission_color").is_some() {
+        dark.set_colour("emission_color", [0.0; 3]);
+    }
+    dark
+}
+
+fn dark_medium(medium: &Medium) -> Medium {
+    Medium { emission: [0.0; 3], ..*medium }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Channel, Field, Input, Lattice, Light, LightShape, Mesh, NodeId, Origin, Transform};
+
+    /// Something of every kind that may send light, and does so much of it.
+    fn sending(radiance: f32, textured: Input) -> Scene {
+        let medium = |scattering| Medium { absorption: [0.1, 0.2, 0.3], scattering, emission: [radiance; 3], ..Medium::default() };
+        let mut scene = Scene { atmosphere: medium([0.0; 3]), ..Scene::default() };
+        scene.lights.push(Light::new(Origin::new("lamp"), LightShape::Point, Transform::default()));
+        let lattice = || Lattice::of_values(&[1.0; 8], [2; 3]).expect("a lattice");
+        let fire = Field { density: lattice(), heat: Some(lattice()), glow: vec![[1.0; 3]; 2], hottest: 1.0, ..Field::default() };
+        scene.add_volume(fire, medium([0.4; 3]));
+        scene.add_filled(Mesh::of_box([0.0; 3], [1.0; 3]), medium([0.5; 3]), Transform::default());
+        let mut even = Closure { solid: medium([0.6; 3]), ..Closure::default() };
+        even.set_colour("emission_color", [radiance; 3]);
+        even.set_colour("base_color", [0.5; 3]);
+        let mut patterned = Closure::default();
+        patterned.set_input("emission_color", textured);
+        scene.add_material(Material { closures: vec![even, patterned, Closure::default()], ..Material::default() });
+        scene
+    }
+
+    #[test]
+    fn lights_alone_send_light() {
+        let glowing = sending(5.0, Input::Node(NodeId(0), Channel::Rgb));
+        let (dark, expected) = (glowing.without_emission(), sending(0.0, Input::Constant([0.0, 0.0, 0.0, 1.0])));
+        assert_eq!((&dark.materials, dark.atmosphere), (&expected.materials, expected.atmosphere));
+        assert_eq!(dark.lights[0].emission.radiance, glowing.lights[0].emission.radiance);
+        assert_eq!((dark.lights.len(), dark.fields.len(), dark.instances.len()), (1, 1, 2));
+    }
+
+    #[test]
+    fn solids_that_only_send_stay_solids() {
+        let solid = Medium { emission: [5.0; 3], ..Medium::default() };
+        let scene = Scene { materials: vec![Material::of(Origin::default(), Closure { solid, ..Closure::default() })], ..Scene::default() };
+        let dark = scene.without_emission().materials[0].closures[0].solid;
+        assert!(!dark.is_clear() && dark.emission == [0.0; 3], "{dark:?}");
+        // Over a light year less than a millionth.
+        assert!(dark.absorption[0] * 1e16 < 1e-6);
+    }
+}
