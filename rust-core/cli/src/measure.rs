@@ -1,7 +1,7 @@
 //! `gonio measure`.
 
 use super::{
-    arguments::{GridArguments, MeasureOptions, MeasuringArguments},
+    arguments::{GridArguments, MeasureOptions, MeasuringArguments, TextureArguments, WorkArguments},
     daylight, falsecolor,
     file::{check_ending, check_targets, print_path, put},
     glare::coverage_json,
@@ -17,7 +17,7 @@ use gonio::{
     compile::CompiledScene,
     measure::{GridReading, MOST_BOUNCES, Measurements, MeterReading, Reading, Watch, csv, measure as evaluate, value_picture},
     output::FalseColour,
-    scene::{Measurand, Meter, Origin, Scene},
+    scene::{Integrator, Measurand, Meter, Origin, Scene},
 };
 use gonio_simd::Execution;
 use gonio_usd::{Loaded, SampleTime, context::UpAxis};
@@ -58,7 +58,8 @@ pub(super) fn loaded(py: Python<'_>, options: &MeasuringArguments, interrupted: 
     if !options.quiet {
         list(&loaded.diagnostics, most_warnings(options));
     }
-    apply_settings(options, &mut loaded.scene);
+    let limits = (options.spp, options.max_bounces);
+    apply_settings(&mut loaded.scene, limits, options.integrator.into(), (&options.work, &options.textures));
     if loaded.scene.meters.is_empty() && loaded.scene.grids.is_empty() {
         let problem = "the stage has no gonio:grid or gonio:meter; name a surface with --grid /Prim or a point with --at X,Y,Z";
         return Err(Error::setting("grid", problem));
@@ -121,13 +122,18 @@ pub(super) fn evaluated(
     found
 }
 
-fn apply_settings(options: &MeasuringArguments, scene: &mut Scene) {
+/// Has points measured by so many samples each and at most so many bounces; without a limit by all that matter.
+pub(super) fn apply_settings(
+    scene: &mut Scene,
+    (samples, max_bounces): (u32, Option<u32>),
+    integrator: Integrator,
+    (work, textures): (&WorkArguments, &TextureArguments),
+) {
     let settings = &mut scene.settings;
-    settings.samples = options.spp;
-    settings.max_bounces = options.max_bounces.unwrap_or(MOST_BOUNCES);
-    settings.integrator = options.integrator.into();
-    options.work.apply(settings);
-    options.textures.apply(settings);
+    (settings.samples, settings.max_bounces) = (samples, max_bounces.unwrap_or(MOST_BOUNCES));
+    settings.integrator = integrator;
+    work.apply(settings);
+    textures.apply(settings);
 }
 
 /// The meters of `--at`.

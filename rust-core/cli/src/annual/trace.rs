@@ -9,7 +9,7 @@ use crate::{
     arguments::AnnualOptions,
     file::{check_targets, print_path},
     interrupt::goes_on,
-    measure::author_grids,
+    measure::{apply_settings, author_grids},
     messages::{list, print},
     progress::Reporter,
     render::{MOST_WARNINGS, stage_options, variants},
@@ -18,9 +18,9 @@ use crate::{
 use gonio::{
     Diagnostic, Result,
     annual::{AnnualGrid, AnnualTask, trace},
-    measure::{MOST_BOUNCES, Watch},
+    measure::Watch,
     render::Progress,
-    scene::Scene,
+    scene::{Integrator, Scene},
     sky::Frame,
 };
 use gonio_annual::Group;
@@ -90,11 +90,7 @@ fn load(py: Python<'_>, options: &AnnualOptions, more: &[String], interrupted: &
         // Who names a grid has not asked for those of the stage besides.
         loaded.scene.grids.retain(|grid| options.grids.grid.iter().any(|prim| *prim == *grid.origin.name));
     }
-    let settings = &mut loaded.scene.settings;
-    settings.samples = options.spp;
-    settings.max_bounces = options.max_bounces.unwrap_or(MOST_BOUNCES);
-    options.work.apply(settings);
-    options.textures.apply(settings);
+    apply_settings(&mut loaded.scene, (options.spp, options.max_bounces), Integrator::Path, (&options.work, &options.textures));
     Ok(loaded)
 }
 

@@ -17,7 +17,7 @@ use super::{
     denoise::Denoiser,
     falsecolor,
     file::{check_ending, check_targets, print_path, put},
-    measure::{author_grids, evaluated},
+    measure::{apply_settings, author_grids, evaluated},
     messages::list,
     messages::say,
     progress::Reporter,
@@ -27,7 +27,7 @@ use super::{
 use gonio::{
     Diagnostic, Error, Result, Severity,
     compile::{CompiledScene, compile},
-    measure::{MOST_BOUNCES, Measurements},
+    measure::Measurements,
     output::FalseColourScale,
     scene::Integrator,
 };
@@ -122,12 +122,7 @@ fn measured(
     if scene.meters.is_empty() && scene.grids.is_empty() {
         return Ok(Measurements::default());
     }
-    let settings = &mut scene.settings;
-    settings.samples = options.point_spp;
-    settings.max_bounces = options.max_bounces.unwrap_or(MOST_BOUNCES);
-    settings.integrator = Integrator::Path;
-    options.work.apply(settings);
-    options.textures.apply(settings);
+    apply_settings(scene, (options.point_spp, options.max_bounces), Integrator::Path, (&options.work, &options.textures));
     let found = evaluated(scene, previous, Reporter::new(options.quiet), interrupted)?;
     diagnostics.extend(found.diagnostics.iter().filter(|new| !diagnostics.contains(new)).cloned().collect::<Vec<_>>());
     Ok(found)
