@@ -73,7 +73,7 @@ pub use meter::{Grid, GridArea, Measurand, Meter};
 pub use origin::Origin;
 pub use points::{PointKey, PointShape, Points, point_key_problem};
 pub use regular::{open_file, read_file};
-pub use settings::{Background, Caustics, Crop, Filter, Guiding, Integrator, MOST_LIGHT_SAMPLES, Mist, Settings, parse_bytes};
+pub use settings::{Background, Caustics, Crop, Filter, Guiding, Integrator, MOST_LIGHT_SAMPLES, Mist, Observer, Settings, parse_bytes};
 pub use shutter::{Shutter, key_problem};
 pub use texture::{Texture, TextureSource, Tile};
 pub use transform::Transform;

@@ -17,18 +17,21 @@ pub enum Measurand {
     DaylightFactor,
     /// Towards `facing`, cd/m².
     Luminance,
+    /// Melanopic equivalent daylight illuminance at an eye that looks along `facing`, lx (CIE S 026): by wavelengths, so lamps want spectra.
+    MelanopicEdi,
     /// Of the luminaires' glare, as an eye rates it that looks along `facing` and stands upright along `normal`; without a unit (CIE 117).
     Ugr,
 }
 
 impl Measurand {
     /// All with their names.
-    pub const NAMES: [(Self, &'static str); 6] = [
+    pub const NAMES: [(Self, &'static str); 7] = [
         (Self::Illuminance, "illuminance"),
         (Self::Cylindrical, "cylindrical"),
         (Self::Semicylindrical, "semicylindrical"),
         (Self::DaylightFactor, "daylight-factor"),
         (Self::Luminance, "luminance"),
+        (Self::MelanopicEdi, "melanopic-edi"),
         (Self::Ugr, "ugr"),
     ];
 
@@ -43,7 +46,7 @@ impl Measurand {
     /// The unit's sign.
     pub fn unit(self) -> &'static str {
         match self {
-            Self::Illuminance | Self::Cylindrical | Self::Semicylindrical => "lx",
+            Self::Illuminance | Self::Cylindrical | Self::Semicylindrical | Self::MelanopicEdi => "lx",
             Self::DaylightFactor => "%",
             Self::Luminance => "cd/m²",
             Self::Ugr => "",

@@ -86,6 +86,23 @@ impl Guiding {
     pub const NAMES: [(Self, &'static str); 3] = [(Self::Off, "off"), (Self::On, "on"), (Self::Auto, "auto")];
 }
 
+/// What sees light that has wavelengths.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Observer {
+    /// The CIE's of 1931: colour, whose luminance is in cd/m².
+    #[default]
+    Luminous,
+    /// Melanopsin (CIE S 026): grey, in cd/m² of D65 that would bring as much.
+    Melanopic,
+}
+
+impl Observer {
+    /// Whether it sees colours.
+    pub fn is_luminous(&self) -> bool {
+        *self == Self::Luminous
+    }
+}
+
 /// What is where the camera sees no surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Background {
@@ -176,6 +193,9 @@ pub struct Settings {
     /// Whether light has wavelengths, three a path, in place of red, green and blue.
     #[serde(default)]
     pub spectral: bool,
+    /// What sees light that has wavelengths.
+    #[serde(default, skip_serializing_if = "Observer::is_luminous")]
+    pub observer: Observer,
     /// Whether there are caustics at all: of what reflects, and of what refracts. Without, light that surfaces scatter diffusely does not come from
     /// either. For [`Integrator::Path`].
     #[serde(default = "all_caustics")]
@@ -309,6 +329,7 @@ impl Default for Settings {
             caustics: Caustics::default(),
             guiding: Guiding::default(),
             spectral: false,
+            observer: Observer::Luminous,
             caustic_paths: all_caustics(),
             clear_roughness: None,
             antialiasing: Antialiasing::default(),

@@ -35,6 +35,11 @@ pub(crate) fn alpha_opic(nodes: &[Node]) -> [AlphaOpic; 5] {
     std::array::from_fn(|k| AlphaOpic { elr_mw_per_lm: 1e3 * efficacies[k], der: efficacies[k] / DAYLIGHT[k] })
 }
 
+/// What melanopsin gets of a wavelength in nm.
+pub(crate) fn melanopic(nm: f64) -> f64 {
+    SPECTRA.at(4, nm)
+}
+
 fn efficacies(nodes: &[Node]) -> [f64; 5] {
     let [luminous] = sums(nodes, |nm| [cie_1931(nm)[1]]);
     sums(nodes, |nm| SPECTRA.all::<5>(nm)).map(|sum| sum / (EFFICACY * luminous))

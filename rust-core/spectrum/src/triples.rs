@@ -7,6 +7,7 @@
 mod course;
 
 use crate::{
+    alpha_opic,
     integral::{Integral, VISIBLE},
     observer::EFFICACY,
     source::Spectrum,
@@ -59,6 +60,15 @@ impl Triples {
         let colour = Integral::new(&[], white::colour);
         let means = |[from, to]: [f64; 2]| colour.between(from, to).map(|value| (Self::COUNT as f64 * value) as f32);
         self.cells().map(|cell| cell.map(means)).collect()
+    }
+
+    /// By cell and wavelength: what a value of 1, relative to D65, at that wavelength brings melanopsin, over what D65 of radiance 1 does; its
+    /// mean over cells, summed over the three, is 1. Of light in cd/m² of D65 it so is the melanopic equivalent daylight luminance (CIE S 026).
+    pub fn melanopic(&self) -> Vec<[f32; 3]> {
+        let response = Integral::new(&[], |nm| [white::d65(nm) * alpha_opic::melanopic(nm)]);
+        let all = response.all()[0];
+        let mean = |[from, to]: [f64; 2]| (Self::COUNT as f64 * response.between(from, to)[0] / all) as f32;
+        self.cells().map(|cell| cell.map(mean)).collect()
     }
 
     /// By cell and wavelength: a spectrum over D65, both of luminance 1, so that the mean over cells of [`Self::film`] times it is the

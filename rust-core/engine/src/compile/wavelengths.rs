@@ -3,7 +3,7 @@
 use crate::{
     error::Diagnostic,
     light::LightTable,
-    scene::{LampSpectrum, Light, Scene},
+    scene::{LampSpectrum, Light, Observer, Scene},
 };
 use gonio_simd::{Column, WavelengthTable};
 use gonio_spectrum::{Spectrum, Triples, triples, upsampling};
@@ -72,7 +72,7 @@ impl LampSpectra {
         }
         static PLAIN: OnceLock<Arc<WavelengthTable>> = OnceLock::new();
         let plain = PLAIN.get_or_init(|| Arc::new(plain()));
-        if self.spectra.is_empty() {
+        if self.spectra.is_empty() && scene.settings.observer.is_luminous() {
             return Some(plain.clone());
         }
         let (mut lamps, mut lamp_colours) = (Vec::new(), Vec::new());
@@ -80,7 +80,12 @@ impl LampSpectra {
             lamps.extend(triples().tabulate(spectrum).into_iter().flat_map(quad));
             lamp_colours.extend(quad(colour(spectrum)));
         }
-        Some(Arc::new(WavelengthTable { lamps: column(&lamps), lamp_colours: column(&lamp_colours), ..(**plain).clone() }))
+        let mut table = WavelengthTable { lamps: column(&lamps), lamp_colours: column(&lamp_colours), ..(**plain).clone() };
+        if scene.settings.observer == Observer::Melanopic {
+            let grey = |value: f32| quad([value; 3]);
+            table.film = column(&triples().melanopic().into_iter().flatten().flat_map(grey).collect::<Vec<f32>>());
+        }
+        Some(Arc::new(table))
     }
 }
 

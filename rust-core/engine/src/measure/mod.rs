@@ -8,6 +8,7 @@ mod disc;
 mod discs;
 mod eye;
 pub mod glare;
+mod melanopic;
 mod missed;
 mod outline;
 mod picture;
@@ -114,11 +115,12 @@ fn read(
     let mut readings = vec![Found::default(); meters.len()];
     let of = |measurand: Measurand| (0..meters.len()).filter(move |i| meters[*i].measurand == measurand);
     let (daylit, rated): (Vec<usize>, Vec<usize>) = (of(Measurand::DaylightFactor).collect(), of(Measurand::Ugr).collect());
-    let is_lit = |i: &usize| !matches!(meters[*i].measurand, Measurand::DaylightFactor | Measurand::Ugr);
+    let is_lit = |i: &usize| !matches!(meters[*i].measurand, Measurand::DaylightFactor | Measurand::Ugr | Measurand::MelanopicEdi);
+    let melanopic: Vec<usize> = of(Measurand::MelanopicEdi).collect();
     let lit: Vec<usize> = (0..meters.len()).filter(is_lit).collect();
     let probe = |i: &usize| Probe::new(&meters[*i]).map(|probe| probe.within(reaches[*i]));
     let chosen = |numbers: &[usize]| numbers.iter().map(probe).collect::<Result<Vec<_>>>();
-    let (daylit_probes, lit_probes) = (chosen(&daylit)?, chosen(&lit)?);
+    let (daylit_probes, lit_probes, melanopic_probes) = (chosen(&daylit)?, chosen(&lit)?, chosen(&melanopic)?);
     let mut sense = |scene: &Scene, probes: &[Probe], diagnostics: &mut Vec<Diagnostic>| {
         let compiled = Arc::new(compile(scene, watch.previous, watch.cancel)?);
         diagnostics.extend(compiled.diagnostics.iter().cloned());
@@ -137,6 +139,10 @@ fn read(
     if !lit.is_empty() {
         let values = sense(scene, &lit_probes, diagnostics)?;
         lit.iter().zip(values).for_each(|(i, reading)| readings[*i].0 = reading);
+    }
+    if let Some(first) = melanopic.first() {
+        let values = sense(&melanopic::seen(scene, &meters[*first].origin, diagnostics)?, &melanopic_probes, diagnostics)?;
+        melanopic.iter().zip(values).for_each(|(i, reading)| readings[*i].0 = reading);
     }
     if let Some(first) = daylit.first() {
         let sky = under_domes(scene, &meters[*first].origin)?;

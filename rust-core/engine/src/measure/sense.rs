@@ -58,8 +58,8 @@ impl Probe {
         Ok(match meter.measurand {
             Measurand::Illuminance | Measurand::DaylightFactor => plane(direction("normal", meter.normal)?, false),
             Measurand::Luminance => plane(direction("facing", meter.facing)?, true),
-            // The eye's illuminance, of which a rating is made.
-            Measurand::Ugr => plane(direction("facing", meter.facing)?, false),
+            // What comes to the eye; glare is rated by it.
+            Measurand::Ugr | Measurand::MelanopicEdi => plane(direction("facing", meter.facing)?, false),
             Measurand::Cylindrical | Measurand::Semicylindrical => {
                 let axis = direction("axis", meter.normal)?;
                 if meter.measurand == Measurand::Semicylindrical && unit(cross(axis, direction("facing", meter.facing)?)).is_none() {
