@@ -13,6 +13,12 @@ QUANTITIES = (
     ("cylindrical", "Cylindrical Illuminance", "Mean over the side of a small upright cylinder, in lx", 1),
     ("daylight-factor", "Daylight Factor", "Illuminance by the sky alone, in per cent of that on open ground", 2),
     ("ugr", "Glare (UGR)", "Unified Glare Rating of the lamps (CIE 117), for eyes that look along the object's Y axis", 3),
+    (
+        "melanopic-edi",
+        "Melanopic EDI",
+        "Melanopic equivalent daylight illuminance (CIE S 026) of eyes that look along the object's Y axis, in lx; lamps want spectra",
+        4,
+    ),
 )
 
 

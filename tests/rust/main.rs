@@ -29,4 +29,5 @@ mod passes;
 mod ranges;
 mod recompile;
 mod rooms;
+mod wavelengths;
 mod whitted;

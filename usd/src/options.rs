@@ -152,6 +152,8 @@ pub struct StageOptions {
     pub disable_draw_mode: bool,
     /// Whether the camera does not see the shapes of lamps, whatever the render settings say.
     pub hide_lights: bool,
+    /// Whether light has wavelengths, whatever the render settings say.
+    pub spectral: bool,
     /// Visibility of haze that fills all of space, metres, whatever the stage says; `None` leaves it to the stage.
     pub haze: Option<f64>,
     /// Whether a pass of motion vectors is asked for: where nothing is blurred, things are then read at the frames before and after too.
@@ -182,6 +184,7 @@ impl Default for StageOptions {
             disable_motion_blur: false,
             disable_draw_mode: false,
             hide_lights: false,
+            spectral: false,
             haze: None,
             motion_vectors: false,
             strict: false,
@@ -202,6 +205,7 @@ impl StageOptions {
         if let Some(settings) = settings {
             options.disable_motion_blur |= settings.framing.disable_motion_blur;
             options.hide_lights |= settings.hide_lights;
+            options.spectral |= settings.spectral;
             options.motion_vectors |= settings.shows(Aov::Motion);
             options.purposes.get_or_insert_with(|| settings.purposes.clone());
             options.material_binding_purposes.get_or_insert_with(|| settings.material_binding_purposes.clone());

@@ -280,7 +280,7 @@ impl Stage {
         let wanted = settings.as_ref().and_then(|settings| settings.framing.camera.clone()).or_else(|| info.default_camera.clone());
         let camera = wanted.and_then(|path| scene.cameras.iter().position(|camera| *camera.origin.name == *path));
         scene.settings.camera = camera.unwrap_or(0) as u32;
-        scene.settings.spectral = settings.as_ref().is_some_and(|settings| settings.spectral);
+        scene.settings.spectral = options.spectral;
         Ok(Loaded { scene, diagnostics, info, settings, waited_for_meshes, kept_shapes, luminaires })
     }
 }

@@ -201,6 +201,7 @@ pub(super) fn stage_options(arguments: &StageArguments) -> Result<StageOptions> 
         disable_motion_blur: arguments.disable_motion_blur,
         disable_draw_mode: arguments.disable_draw_mode,
         hide_lights: arguments.hide_lights,
+        spectral: arguments.spectral,
         haze: arguments.haze,
         strict: arguments.strict,
         lenient: arguments.lenient,
@@ -321,7 +322,6 @@ impl Job<'_> {
         settings.integrator = options.integrator.into();
         settings.caustics = options.caustics.into();
         settings.guiding = options.guiding.into();
-        settings.spectral |= options.spectral;
         settings.light_samples = options.light_samples;
         settings.filter = match options.filter {
             FilterArgument::Box => Filter::Box,

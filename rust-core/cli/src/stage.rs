@@ -114,6 +114,7 @@ impl OpenModel {
         }
         let shapes = loaded.scene.lights.iter_mut().filter(|light| !light.shape.is_at_infinity());
         shapes.for_each(|light| light.visibility.camera &= !options.hide_lights);
+        loaded.scene.settings.spectral |= options.spectral;
         Ok(loaded)
     }
 }

@@ -86,7 +86,7 @@ mod _gonio {
     #[pymodule_export]
     use crate::scene::Scene;
     #[pymodule_export]
-    use crate::spectrum::{illuminant, read_spectrum, spectrum_figures};
+    use crate::spectrum::{colour_reflectance, illuminant, read_spectrum, spectrum_figures};
     #[pymodule_export]
     use crate::usd::{_files_of_stage, _main, _scene, _view_scene, load_usd};
 

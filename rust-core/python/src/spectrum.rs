@@ -1,7 +1,7 @@
 //! Spectra of lamps and what they say.
 
 use crate::error::{exception, setting};
-use gonio_spectrum::{OPSINS, Spectrum, White, named};
+use gonio_spectrum::{OPSINS, REC709_TO_REC2020, Spectrum, White, named, upsampling};
 use pyo3::{prelude::*, types::PyDict};
 
 /// The spectrum of a file's bytes, text of nm and power or IES TM-27: `name`, `wavelengths_nm`, `power` over its largest, and `notes` on the data.
@@ -18,6 +18,13 @@ pub(crate) fn illuminant<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py
     let unknown = || setting("name", format!("'{name}' was found, expected one of {}", gonio_spectrum::NAMES));
     let found = named(name).ok_or_else(unknown)?.map_err(|error| setting("name", error.problem))?;
     described(py, &found)
+}
+
+/// The reflectance that a linear Rec.709 colour within 0 to 1 stands for in spectral renders, at wavelengths in nm (Jakob and Hanika 2019).
+#[pyfunction]
+pub(crate) fn colour_reflectance(colour: [f32; 3], wavelengths_nm: Vec<f32>) -> Vec<f32> {
+    let wide = REC709_TO_REC2020.map(|row| row.iter().zip(colour).map(|(part, value)| part * value).sum());
+    wavelengths_nm.into_iter().map(|nm| upsampling().reflectance(wide, nm)).collect()
 }
 
 fn described<'py>(py: Python<'py>, spectrum: &Spectrum) -> PyResult<Bound<'py, PyDict>> {

@@ -66,9 +66,6 @@ pub(crate) struct RenderOptions {
     /// Paths go more often where indirect light comes from, as through a door ajar, learned from small pictures of the view (path guiding); given up where they do not promise that it pays.
     #[arg(long, value_enum, value_name = "WHEN", default_value_t = GuidingArgument::Off)]
     pub(crate) guiding: GuidingArgument,
-    /// Light has wavelengths, three a path, in place of red, green and blue: spectra of lamps, metamers and thin films come out as they are; colours become spectra.
-    #[arg(long)]
-    pub(crate) spectral: bool,
     /// Samples of each light that has an extent, with --integrator whitted; the same places on the light for every point.
     #[arg(long = "light-samples", value_name = "COUNT", default_value_t = MOST_LIGHT_SAMPLES, value_parser = count::<u32>(1..=u64::from(MOST_LIGHT_SAMPLES)))]
     pub(crate) light_samples: u32,

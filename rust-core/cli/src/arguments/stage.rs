@@ -39,6 +39,10 @@ pub(crate) struct StageArguments {
     /// The camera does not see the shapes of lamps (suns and domes stay): they light, and stand in mirrors, as ever.
     #[arg(long = "hide-lights")]
     pub(crate) hide_lights: bool,
+    /// Light has wavelengths, three a path, in place of red, green and blue: spectra of lamps, colours on colours and thin films come out as they are; colours
+    /// become spectra.
+    #[arg(long)]
+    pub(crate) spectral: bool,
     /// Fill all of space with haze or fog in which a black thing before the sky keeps 5 % of its contrast after so many metres (the meteorological optical
     /// range of CIE and WMO); lights at infinity do not shine through it.
     #[arg(long, value_name = "METRES", value_parser = positive::<f64>)]

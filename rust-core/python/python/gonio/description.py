@@ -21,6 +21,7 @@ MEASURANDS = {
     "semicylindrical": "Semicylindrical",
     "daylight-factor": "DaylightFactor",
     "luminance": "Luminance",
+    "melanopic-edi": "MelanopicEdi",
     "ugr": "Ugr",
 }
 

@@ -224,7 +224,8 @@ class Scene(_gonio.Scene):
         name: str = "meter",
     ) -> int:
         """Adds a meter at a point in metres; gives its number. quantity: illuminance (of the plane across `normal`), cylindrical or
-        semicylindrical (`normal` is the axis), daylight-factor, luminance (towards `facing`), or ugr (of the luminaires, along `facing`,
+        semicylindrical (`normal` is the axis), daylight-factor, luminance (towards `facing`), melanopic-edi (of an eye
+        that looks along `facing`; lamps want spectra), or ugr (of the luminaires, along `facing`,
         upright along `normal`).
         """
         vectors = {"position": position, "normal": normal, "facing": facing}

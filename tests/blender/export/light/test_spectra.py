@@ -1,0 +1,49 @@
+"""Spectra of lamps, and the switch for light with wavelengths."""
+
+from pathlib import Path
+
+import pytest
+
+
+@pytest.mark.blender
+def test_a_lamp_shines_by_its_spectrum(tmp_path: Path):
+    import bpy
+    import gonio
+    import scenes
+
+    def colour(*, spectral: bool):
+        scene = scenes.lit_floor(samples=256, width=16, height=16)
+        scene.gonio.spectral = spectral
+        lamp = bpy.data.objects["Lamp"].data
+        lamp.gonio.use_photometry = True
+        lamp.gonio.spectrum = "LED-B1"
+        scenes.render(tmp_path / "a.exr")
+        layers = scenes.read(tmp_path / "a.exr")
+        return [float(layers[f"ViewLayer.Combined.{channel}"].mean()) for channel in "RGB"]
+
+    plain, spectral = (colour(spectral=spectral) for spectral in (False, True))
+    assert spectral == pytest.approx(plain, rel=0.03)
+    # Warm white: its chromaticity by the CIE's tables.
+    figures = gonio.illuminant("LED-B1")
+    found = gonio.spectrum_figures(figures["wavelengths_nm"], figures["power"])
+    red, green, blue = plain
+    sums = [0.4124 * red + 0.3576 * green + 0.1805 * blue, 0.2126 * red + 0.7152 * green + 0.0722 * blue, 0.0193 * red + 0.1192 * green + 0.9505 * blue]
+    assert sums[0] / sum(sums) == pytest.approx(found["x"], abs=0.01)
+
+
+@pytest.mark.blender
+def test_what_is_no_spectrum_is_told_with_the_lamp(tmp_path: Path):
+    import scenes
+    from recorder import depsgraph, exporter
+
+    scene = scenes.lit_floor()
+    settings = next(thing for thing in scene.objects if thing.type == "LIGHT").data.gonio
+    settings.use_photometry, settings.unit, settings.quantity = True, "CANDELA", 800.0
+    settings.spectrum = str(tmp_path / "missing.spdx")
+    made, report = exporter()
+    light = made.sync(depsgraph()).lights[0]
+    assert light["spectrum"] is None
+    assert any("missing.spdx" in each.text and "keeps its colour" in each.text for each in report.diagnostics)
+    settings.spectrum = "FL11"
+    made, report = exporter()
+    assert made.sync(depsgraph()).lights[0]["spectrum"]["name"] == "CIE FL11" and not report.diagnostics
