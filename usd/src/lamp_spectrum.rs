@@ -39,5 +39,5 @@ fn from_name(name: &str) -> Result<LampSpectrum, String> {
 }
 
 fn from_file(context: &Context<'_, '_>, path: &AssetPath) -> Result<LampSpectrum, String> {
-    asset::read(context.py, path, "spectrum", |bytes, name| gonio_spectrum::read(bytes, name)).map(LampSpectrum::from)
+    asset::read(context.py, path, "spectrum", gonio_spectrum::read).map(LampSpectrum::from)
 }

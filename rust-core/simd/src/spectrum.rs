@@ -4,6 +4,7 @@
 //! light colour, by the doors of [`Wavelengths`]. ARCHITECTURE.md lists who opens them.
 
 mod columns;
+mod upsampled;
 mod wavelengths;
 
 pub use columns::{SpectrumColumns, SpectrumItems};

@@ -1,6 +1,6 @@
 //! Light under way: the same arithmetic as stored colour, choice of a component, and what waits in columns.
 
-use gonio_simd::{Execution, F, Lanes, Rgb, Select, Spectrum, SpectrumColumns, SpectrumItems, dispatch};
+use gonio_simd::{Execution, F, Lanes, Rgb, Select, Spectrum, SpectrumColumns, SpectrumItems, Wavelengths, dispatch};
 
 /// Colours with zeros, large, small and negative components, one in each lane.
 #[inline(always)]
@@ -26,7 +26,7 @@ fn bits<L: Lanes>(x: F<L>) -> Vec<u32> {
 #[inline(always)]
 fn check_arithmetic<L: Lanes>(l: L) {
     let (a, b, s) = (colour(l, 0.37), colour(l, 2.9), l.iota().to_float() * 0.3 - 1.1);
-    let (x, y, mask) = (Spectrum::reflectance(a), Spectrum::reflectance(b), s.gt(0.0));
+    let (x, y, mask) = (Wavelengths::rgb(l).reflectance(a), Wavelengths::rgb(l).reflectance(b), s.gt(0.0));
     same("sum", x + y, Rgb::new(a.r + b.r, a.g + b.g, a.b + b.b));
     same("difference", x - y, Rgb::new(a.r - b.r, a.g - b.g, a.b - b.b));
     same("product", x * y, Rgb::new(a.r * b.r, a.g * b.g, a.b * b.b));
@@ -70,8 +70,8 @@ fn light_is_computed_as_colour_is() {
 
 #[inline(always)]
 fn check_choice<L: Lanes>(l: L) {
-    let values = Spectrum::reflectance(Rgb::splat(l, [10.0, 20.0, 30.0]));
-    let chosen = |weights: [f32; 3], u: f32| Spectrum::reflectance(Rgb::splat(l, weights)).shares().choose(l.f(u), values).to_array()[0];
+    let values = Wavelengths::rgb(l).reflectance(Rgb::splat(l, [10.0, 20.0, 30.0]));
+    let chosen = |weights: [f32; 3], u: f32| Wavelengths::rgb(l).reflectance(Rgb::splat(l, weights)).shares().choose(l.f(u), values).to_array()[0];
     assert_eq!([0.0, 0.24, 0.26, 0.74, 0.76, 0.999].map(|u| chosen([1.0, 2.0, 1.0], u)), [10.0, 10.0, 20.0, 20.0, 30.0, 30.0]);
     // Beyond the rounded sum stands the last component that has any probability.
     assert_eq!([[2.0, 0.0, 0.0], [1.0, 3.0, 0.0], [0.0, 0.0, 5.0]].map(|weights| chosen(weights, 1.0)), [10.0, 20.0, 30.0]);
@@ -80,7 +80,7 @@ fn check_choice<L: Lanes>(l: L) {
     assert_eq!(bits(Spectrum::constant(l.f(0.3)).constant_value()), bits(l.f(0.3)));
     assert!(!Spectrum::zero(l).is_lit().any() && Spectrum::one(l).is_lit().all());
     // What takes light away is light too, and its parts have its sign.
-    let spectrum = |x: [f32; 3]| Spectrum::reflectance(Rgb::splat(l, x));
+    let spectrum = |x: [f32; 3]| Wavelengths::rgb(l).reflectance(Rgb::splat(l, x));
     let taken = spectrum([0.0, -2.0, -1.0]);
     assert!(taken.is_lit().all() && bits(taken.abs().max_component()) == bits(l.f(2.0)));
     assert_eq!(bits((taken - spectrum([0.5, -0.5, -3.0])).part_of(taken).sum()), bits(l.f(-1.5)));
@@ -99,7 +99,7 @@ fn a_component_is_chosen_by_its_share() {
 fn check_columns<L: Lanes>(l: L) {
     let (mut columns, mut items) = (SpectrumColumns::new(64), SpectrumItems::new(64));
     let (colour, number) = (colour(l, 0.6), l.iota().to_float() + 0.5);
-    let light = Spectrum::reflectance(colour);
+    let light = Wavelengths::rgb(l).reflectance(colour);
     columns.store(light, 16);
     items.store(light, number, 16);
     same("columns", columns.load(l, 16), colour);

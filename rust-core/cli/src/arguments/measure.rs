@@ -53,7 +53,7 @@ pub(crate) struct MeasuringArguments {
     /// Where half cylinders, luminance meters and eyes at these points face; without it +Y where Z is up, -Z where Y is up.
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, requires = "at")]
     pub(crate) facing: Option<String>,
-    /// What these grids and points measure: illuminance, cylindrical, semicylindrical (lx), daylight-factor (%), luminance (cd/m²), ugr (the luminaires' glare at an eye there); without it as the grid's prim says, else illuminance.
+    /// What these grids and points measure: illuminance, cylindrical, semicylindrical (lx), daylight-factor (%), luminance (cd/m²), melanopic-edi (lx at an eye that looks along --facing; lamps want spectra), ugr (the luminaires' glare at an eye there); without it as the grid's prim says, else illuminance.
     #[arg(long, value_name = "QUANTITY")]
     pub(crate) quantity: Option<String>,
     /// For machines.

@@ -24,13 +24,13 @@ impl<'a> SampleContext<'a> {
 
     /// Door for light: light of some slots' paths as colour of the film.
     #[inline(always)]
-    pub(crate) fn to_film<L: Lanes>(&self, slot: U<L>, light: Spectrum<L>) -> Rgb<L> {
+    pub(crate) fn to_film<L: Lanes>(self, slot: U<L>, light: Spectrum<L>) -> Rgb<L> {
         self.wavelengths(slot.lanes(), slot).to_rgb(light)
     }
 
     /// The same of several.
     #[inline(always)]
-    pub(crate) fn all_to_film<L: Lanes, const N: usize>(&self, slot: U<L>, light: [Spectrum<L>; N]) -> [Rgb<L>; N] {
+    pub(crate) fn all_to_film<L: Lanes, const N: usize>(self, slot: U<L>, light: [Spectrum<L>; N]) -> [Rgb<L>; N] {
         let wavelengths = self.wavelengths(slot.lanes(), slot);
         let mut colours = [Rgb::zero(slot.lanes()); N];
         for (colour, light) in colours.iter_mut().zip(light) {

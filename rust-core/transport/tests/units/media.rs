@@ -1,7 +1,7 @@
 //! Media against Beer and Lambert's law, lane for lane.
 
 use gonio_accel::TransparentHit;
-use gonio_simd::{Column, Lanes, One, PADDING, Rgb, Spectrum};
+use gonio_simd::{Column, Lanes, One, PADDING, Rgb, Spectrum, Wavelengths};
 use gonio_transport::media::{
     set::{MediaColumns, MediaSet, Solid},
     shadow::OpticalDepth,
@@ -12,7 +12,7 @@ const GLASS: [f32; 3] = [0.3, 0.8, 1.5];
 const WATER: [f32; 3] = [0.2, 0.1, 0.05];
 
 fn light(colour: [f32; 3]) -> Spectrum<One> {
-    Spectrum::coefficient(Rgb::splat(One, colour))
+    Wavelengths::rgb(One).coefficient(Rgb::splat(One, colour))
 }
 
 fn solid(colour: [f32; 3]) -> Option<Solid<One>> {
