@@ -36,7 +36,7 @@ fn lines_with(folder: &str, needle: &str) -> Vec<String> {
 }
 
 /// Crates of the engine from the ground up, and which others of gonio each may use.
-const CRATES: [(&str, &[&str]); 21] = [
+const CRATES: [(&str, &[&str]); 22] = [
     ("simd", &[]),
     ("formats", &[]),
     ("spectrum", &["formats"]),
@@ -47,6 +47,7 @@ const CRATES: [(&str, &[&str]); 21] = [
     ("annual", &["formats", "simd", "sky"]),
     ("share", &[]),
     ("dimming", &[]),
+    ("verdict", &["formats"]),
     ("accel", &["simd"]),
     ("image", &["simd"]),
     ("table", &["simd"]),

@@ -46,6 +46,7 @@ mod share;
 mod snapshot;
 mod spectrum;
 mod stage;
+mod verdict;
 mod view;
 mod volume;
 
@@ -114,6 +115,7 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
         Command::Report(options) => report::report(py, &options, &INTERRUPTED),
         Command::Share(options) => client_page::share(py, &options, &INTERRUPTED),
         Command::Road(options) => py.detach(|| road::road(&options, &INTERRUPTED)),
+        Command::Verdict(options) => verdict::verdict(py, &options, &INTERRUPTED),
         Command::Annual(options) => annual::trace::annual(py, &options, &INTERRUPTED),
         Command::AnnualMetrics(options) => py.detach(|| annual::annual_metrics(&options, &INTERRUPTED)),
         Command::Glare(options) => py.detach(|| glare::glare(&options)),

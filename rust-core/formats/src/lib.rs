@@ -21,5 +21,5 @@ mod svg;
 mod xml;
 
 pub use error::{FormatError, Place};
-pub use short::{short_number, tame};
+pub use short::{rounded, short_number, tame};
 pub use svg::{Anchor, Canvas, escape};

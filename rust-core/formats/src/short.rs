@@ -10,6 +10,31 @@ pub fn short_number(value: f64) -> String {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
+/// Digits of a standard error.
+const ERROR_DIGITS: i32 = 2;
+/// Most digits of a value: no lamp and no eye knows more.
+const VALUE_DIGITS: i32 = 4;
+
+/// A value and its standard error without the digits that noise makes: as many places as the error has with two digits, and four digits at most; none
+/// where there is no error to speak of.
+pub fn rounded(value: f64, error: f64) -> Option<[String; 2]> {
+    let after = |digits: i32, number: f64| digits - 1 - number.log10().floor() as i32;
+    let of_error = (error.is_finite() && error > 1e-6).then(|| after(ERROR_DIGITS, error))?;
+    let size = value.abs();
+    let places = if size > error { of_error.min(after(VALUE_DIGITS, size)) } else { of_error };
+    // What is too small to be seen is at most one in the last place.
+    Some([fixed(value, places), fixed(error.max(10f64.powi(-places)), places)])
+}
+
+/// A number rounded to decimal places, to whole tens for −1.
+fn fixed(value: f64, places: i32) -> String {
+    if places >= 0 {
+        return format!("{value:.*}", places as usize);
+    }
+    let tens = 10f64.powi(-places);
+    format!("{:.0}", (value / tens).round() * tens)
+}
+
 /// Text that neither breaks a line nor reaches into a terminal: control characters are replaced.
 pub fn tame(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect()

@@ -26,6 +26,7 @@ mod road;
 mod spectrum;
 mod stage;
 mod texture;
+mod verdict;
 mod view;
 mod work;
 
@@ -54,6 +55,7 @@ pub(super) use road::RoadOptions;
 pub(super) use spectrum::SpectrumOptions;
 pub(super) use stage::{ComplexityArgument, StageArguments};
 pub(super) use texture::TextureArguments;
+pub(super) use verdict::VerdictOptions;
 pub(super) use view::{ShowArgument, ViewOptions};
 pub(super) use work::WorkArguments;
 
@@ -68,15 +70,16 @@ use measure::MEASURE_EXAMPLES;
 use report::REPORT_EXAMPLES;
 use road::ROAD_EXAMPLES;
 use spectrum::SPECTRUM_EXAMPLES;
+use verdict::VERDICT_EXAMPLES;
 use view::VIEW_EXAMPLES;
 
 /// What the process's status says.
 const EXIT_STATUS: &str = "\
 Exit status:
   0    done
-  1    an error, told in one line; 'gonio compare' beyond --max; 'gonio dim' with a target that is not met
+  1    an error, told in one line; 'gonio compare' beyond --max; 'gonio dim' and 'gonio verdict' with something that is not met
   2    a command line that cannot be understood
-  3    the USD library broke down over the stage
+  3    the USD library broke down over the stage; 'gonio verdict' within the error
   130  interrupted; the picture so far is written";
 
 /// Command lines to start from.
@@ -180,6 +183,12 @@ pub(super) enum Command {
     /// lighting class.
     #[command(after_long_help = ROAD_EXAMPLES)]
     Road(RoadOptions),
+    /// Say whether what was measured meets what is required, line by line and by the standard errors: met, not met, or within the error.
+    ///
+    /// Requirements are a TOML file of your own numbers; figures come from 'gonio measure', 'gonio annual' and 'gonio road' with --json. Writes the
+    /// planner's sheet as HTML or PDF. It is no certificate of conformity with a standard.
+    #[command(after_long_help = VERDICT_EXAMPLES)]
+    Verdict(VerdictOptions),
     /// Calculate a year of daylight on grids of a USD stage: sDA, ASE, daylight autonomy, UDI, EN 17037, with standard errors.
     ///
     /// Paths from the points find what each patch of the sky brings; a weather file says how bright each is, hour by hour, and where the sun stands.

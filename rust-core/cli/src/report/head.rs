@@ -42,6 +42,6 @@ fn sun_and_sky(options: &ReportOptions) -> Option<String> {
 }
 
 /// The day by the machine's clock, year first (ISO 8601).
-pub(super) fn today(py: Python<'_>) -> PyResult<String> {
+pub(crate) fn today(py: Python<'_>) -> PyResult<String> {
     py.import("datetime")?.getattr("date")?.call_method0("today")?.call_method0("isoformat")?.extract()
 }

@@ -8,7 +8,7 @@ mod pictures;
 mod power;
 mod schedule;
 
-pub(super) use head::Head;
+pub(super) use head::{Head, today};
 pub(super) use html::Page;
 
 use super::{
@@ -48,7 +48,7 @@ pub(super) fn report(py: Python<'_>, options: &ReportOptions, interrupted: &'sta
     let stage = Stage::open(py, &options.stage.stage, &options.stage.state, &stage_options)?;
     author_grids(py, &stage, &options.grids, None)?;
     let loaded = stage.load(py, &stage_options, interrupted)?;
-    let today = head::today(py).map_err(|error| Error::Internal(error.to_string()))?;
+    let today = today(py).map_err(|error| Error::Internal(error.to_string()))?;
     let denoiser = denoiser(options);
     py.detach(|| run(options, loaded, today, denoiser.as_ref(), interrupted))
 }

@@ -1,13 +1,7 @@
 //! Numbers as a planner reads them: no digits that the noise makes.
 
 use gonio::measure::Reading;
-use gonio_formats::short_number;
-
-/// Digits of a standard error.
-const ERROR_DIGITS: i32 = 2;
-
-/// Most digits of a value: no lamp and no eye knows more.
-const VALUE_DIGITS: i32 = 4;
+use gonio_formats::{rounded, short_number};
 
 /// A value with its standard error and unit: as many places as the error has with two digits, and four digits at most.
 pub(super) fn with_error(reading: &Reading, unit: &str) -> String {
@@ -15,28 +9,8 @@ pub(super) fn with_error(reading: &Reading, unit: &str) -> String {
     if value.is_nan() {
         return "not measured".into();
     }
-    let text = match places(standard_error, value.abs()) {
-        // What is too small to be seen is at most one in the last place.
-        Some(places) => format!("{} ± {}", fixed(value, places), fixed(standard_error.max(10f64.powi(-places)), places)),
-        None => short_number(value),
-    };
+    let text = rounded(value, standard_error).map_or_else(|| short_number(value), |[value, error]| format!("{value} ± {error}"));
     format!("{text} {unit}").trim_end().to_owned()
-}
-
-/// Decimal places of a value with its error, negative before the point; none where there is no error to speak of.
-fn places(error: f64, value: f64) -> Option<i32> {
-    let after = |digits: i32, number: f64| digits - 1 - number.log10().floor() as i32;
-    let of_error = (error.is_finite() && error > 1e-6).then(|| after(ERROR_DIGITS, error))?;
-    Some(if value > error { of_error.min(after(VALUE_DIGITS, value)) } else { of_error })
-}
-
-/// A number rounded to decimal places, to whole tens for −1.
-fn fixed(value: f64, places: i32) -> String {
-    if places >= 0 {
-        return format!("{value:.*}", places as usize);
-    }
-    let tens = 10f64.powi(-places);
-    format!("{:.0}", (value / tens).round() * tens)
 }
 
 #[cfg(test)]

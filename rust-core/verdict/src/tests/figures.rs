@@ -1,0 +1,102 @@
+//! Figures by their names, in every kind of file.
+
+use super::{grid, meter, one, road, year};
+use crate::{Sheet, Verdict, lines};
+use serde_json::{Value, json};
+
+fn value(keys: &str, files: &[Value]) -> (f64, Option<f64>) {
+    let found = one(&format!("{keys}; at_least = 0"), files).expect(keys);
+    let reached = found.rows[0].reached.clone();
+    let reached = reached.unwrap_or_else(|| panic!("{keys}: {:?}", lines(&found)));
+    (reached.value, reached.standard_error)
+}
+
+fn told(sheet: &Sheet) -> String {
+    lines(sheet).join("\n")
+}
+
+#[test]
+fn grids_and_meters() {
+    let files = [grid(), meter("2,3,1.2", "daylight-factor", "%", json!(3.5))];
+    for (keys, expected) in [
+        ("area = '/Office/Desk'; quantity = 'mean'", 510.0),
+        ("area = 'Office/Desk'; quantity = 'average'", 510.0),
+        ("area = 'desk'; quantity = 'illuminance'", 510.0),
+        ("area = 'Desk'; quantity = 'min'", 400.0),
+        ("area = 'Desk'; quantity = 'maximum'; of = 'illuminance'; unit = 'lux'", 640.0),
+        ("area = '2,3,1.2'; quantity = 'daylight_factor'; unit = '%'", 3.5),
+        ("area = '2,3,1.2'; quantity = 'daylight-factor'", 3.5),
+    ] {
+        assert!((value(keys, &files).0 - expected).abs() < 1e-12, "{keys}");
+    }
+}
+
+#[test]
+fn years() {
+    for (keys, expected, error) in [
+        ("area = 'Desk'; quantity = 'sda_300_50'", 0.5, Some(0.01)),
+        ("area = 'Desk'; quantity = 'sda_300_50'; unit = '%'", 50.0, Some(1.0)),
+        ("area = 'Desk'; quantity = 'mean_lx'; unit = 'lx'", 800.0, Some(10.0)),
+        ("area = 'Desk'; quantity = 'da_300'", 0.5, Some(0.02)),
+        ("area = 'Desk'; quantity = 'minimum'; of = 'da_300'", 0.4, Some(0.01)),
+        ("area = 'Desk'; quantity = 'maximum'; of = 'da_300'; unit = '%'", 60.0, Some(3.0)),
+        ("area = 'Desk'; quantity = 'minimum'; of = 'daylight_hours_300'", 0.8, None),
+        ("area = 'Desk'; quantity = 'hourly_area_300'", 0.9, None),
+    ] {
+        let found = value(keys, &[year()]);
+        assert!((found.0 - expected).abs() < 1e-12, "{keys}: {found:?}");
+        assert_eq!(found.1.map(|error| (error * 1e9).round()), error.map(|error| (error * 1e9f64).round()), "{keys}");
+    }
+    let missing = one("area = 'Desk'; quantity = 'ase_1000_250'; at_most = 0.1", &[year()]).expect("a sheet");
+    assert_eq!(missing.rows[0].verdict, Verdict::NotMeasured);
+}
+
+#[test]
+fn roads() {
+    for (keys, expected) in [
+        ("area = 'mill'; quantity = 'l_av'; unit = 'cd/m2'", 0.88),
+        ("area = 'road'; quantity = 'uo'", 0.69),
+        ("area = 'roads/mill.toml'; quantity = 'e_av'; unit = 'lx'", 12.5),
+        ("area = 'mill'; quantity = 'pdi'", 15.3),
+        ("area = 'north path'; quantity = 'e_min'", 5.8),
+        ("area = 'lane 2'; quantity = 'ti'; unit = '%'", 11.0),
+        ("area = 'right edge'; quantity = 'ratio'", 0.5),
+    ] {
+        assert_eq!(value(keys, &[road()]), (expected, None), "{keys}");
+    }
+}
+
+#[test]
+fn modelling_is_cylindrical_over_level_illuminance() {
+    let files = [meter("a", "illuminance", "lx", json!(400.0)), meter("a", "cylindrical", "lx", json!(160.0))];
+    let found = value("area = 'a'; quantity = 'modelling'", &files);
+    assert!((found.0 - 0.4).abs() < 1e-12 && (found.1.expect("an error") - 0.4 * (0.2f64 / 400.0).hypot(0.2 / 160.0)).abs() < 1e-12);
+}
+
+#[test]
+fn the_same_figure_of_two_files_wants_the_file() {
+    let files = [grid(), grid()];
+    let error = one("area = 'Desk'; quantity = 'mean'; at_least = 1", &files).expect_err("two figures").to_string();
+    assert!(error.starts_with("office.toml:1: ") && error.contains("out/0.json") && error.contains("out/1.json"), "{error}");
+    assert_eq!(value("area = 'Desk'; quantity = 'mean'; file = '1.json'", &files).0, 510.0);
+    let error = one("area = 'Desk'; quantity = 'mean'; file = '2.json'; at_least = 1", &files).expect_err("no such file").to_string();
+    assert!(error.contains("'2.json' is none of those given"), "{error}");
+}
+
+#[test]
+fn noise_that_moves_least_points_is_told() {
+    // The least point is 400 ± 30, 7.5 %; the greatest 640 ± 8, 1.25 %.
+    let least = told(&one("area = 'Desk'; quantity = 'minimum'; at_least = 500", &[grid()]).expect("a sheet"));
+    assert!(least.contains("7.5 %") && least.contains("noise moves a least point down"), "{least}");
+    let greatest = told(&one("area = 'Desk'; quantity = 'maximum'; at_most = 500", &[grid()]).expect("a sheet"));
+    assert!(!greatest.contains("noise moves"), "{greatest}");
+}
+
+#[test]
+fn what_is_not_there_is_told_with_what_is() {
+    let no_area = told(&one("area = 'Dseks'; quantity = 'mean'; at_least = 1", &[grid(), road()]).expect("a sheet"));
+    assert!(no_area.contains("office.toml:1: nothing measured is called 'Dseks'. Did you mean '/Office/Desk'?"), "{no_area}");
+    assert!(no_area.contains("north path"), "{no_area}");
+    let no_quantity = told(&one("area = 'Desk'; quantity = 'uniformty'; at_least = 1", &[grid()]).expect("a sheet"));
+    assert!(no_quantity.contains("Did you mean 'uniformity'?") && no_quantity.contains("mean of illuminance"), "{no_quantity}");
+}
