@@ -1,7 +1,7 @@
 //! Names that people write, and those that were meant.
 
 /// Letters that a wrong name may share with a known one to be taken for a slip, of 1.
-const ALIKE: f64 = 0.75;
+const ALIKE: f64 = 0.66;
 /// Names that a message lists.
 const MOST: usize = 12;
 /// Letters of a name that a message quotes.
@@ -10,7 +10,11 @@ const LETTERS: usize = 60;
 /// The known name that is most like another, where one is like it.
 pub(crate) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let small = last(name).to_lowercase();
-    let alike = |other: &str| strsim::jaro_winkler(&small, &last(other).to_lowercase());
+    let alike = |other: &str| {
+        let other = last(other).to_lowercase();
+        // Letters that changed places count little in one, missing ones in the other.
+        strsim::normalized_damerau_levenshtein(&small, &other).max(strsim::jaro_winkler(&small, &other))
+    };
     let rated = known.into_iter().map(|other| (alike(other), other));
     rated.filter(|(rate, _)| *rate >= ALIKE).max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, other)| other)
 }

@@ -23,7 +23,7 @@ pub(super) fn gauge(reached: &Reached, requirement: &Requirement) -> String {
         Bound::AtMost => (0.0, edge),
     };
     format!(
-        "<svg class=\"gauge\" viewBox=\"0 0 {width} {height}\" aria-hidden=\"true\">\
+        "<svg class=\"gauge\" viewBox=\"0 0 {width} {height}\" preserveAspectRatio=\"xMinYMid\" aria-hidden=\"true\">\
          <rect class=\"kept\" x=\"{start:.1}\" y=\"4\" width=\"{long:.1}\" height=\"12\"/>\
          <line class=\"limit\" x1=\"{edge:.1}\" x2=\"{edge:.1}\" y1=\"1\" y2=\"19\" stroke-width=\"1.5\"/>\
          <line x1=\"{:.1}\" x2=\"{:.1}\" y1=\"{line}\" y2=\"{line}\" stroke=\"currentColor\" stroke-width=\"3\"/>\

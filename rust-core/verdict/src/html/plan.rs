@@ -84,7 +84,7 @@ fn ring([x, y]: [f64; 2], cell: [f64; 2]) -> String {
 
 fn legend([low, high]: [f64; 2], top: f64, unit: &str, numbers: Numbers) -> String {
     let (y, step) = (top + 12.0, 0.5 * ROOM[0] / STEPS as f64);
-    let left = 20.0;
+    let left = 30.0;
     let bar = |index: usize| {
         let fill = colour((index as f64 + 0.5) / STEPS as f64);
         format!("<rect x=\"{:.2}\" y=\"{y:.1}\" width=\"{:.2}\" height=\"10\" fill=\"{fill}\"/>", left + step * index as f64, step + 0.3)

@@ -97,6 +97,8 @@ fn what_is_not_there_is_told_with_what_is() {
     let no_area = told(&one("area = 'Dseks'; quantity = 'mean'; at_least = 1", &[grid(), road()]).expect("a sheet"));
     assert!(no_area.contains("office.toml:1: nothing measured is called 'Dseks'. Did you mean '/Office/Desk'?"), "{no_area}");
     assert!(no_area.contains("north path"), "{no_area}");
+    let swapped = told(&one("area = 'Desk'; quantity = 'maen'; at_least = 1", &[grid()]).expect("a sheet"));
+    assert!(swapped.contains("Did you mean 'mean'?"), "{swapped}");
     let no_quantity = told(&one("area = 'Desk'; quantity = 'uniformty'; at_least = 1", &[grid()]).expect("a sheet"));
     assert!(no_quantity.contains("Did you mean 'uniformity'?") && no_quantity.contains("mean of illuminance"), "{no_quantity}");
 }

@@ -28,7 +28,7 @@ fn two_standard_errors_part_the_verdicts() {
 #[test]
 fn a_figure_without_noise_meets_its_own_limit() {
     let road = super::road();
-    let of = |bound: &str| one(&format!("area = 'road'; quantity = 'ti'; {bound}"), &[road.clone()]).expect(bound).verdict();
+    let of = |bound: &str| one(&format!("area = 'road'; quantity = 'ti'; {bound}"), std::slice::from_ref(&road)).expect(bound).verdict();
     assert_eq!([of("at_most = 13.7"), of("at_most = 13.69999"), of("at_least = 13.7")], [Verdict::Met, Verdict::NotMet, Verdict::Met]);
 }
 
