@@ -37,7 +37,7 @@ impl Drawn {
         let cell = coarse.spacing.map(|length| length * scale);
         let height = extent[1] * scale;
         let share = |value: f64| if high > low { (value - low) / (high - low) } else { 0.5 };
-        let mut svg = format!("<svg viewBox=\"0 0 {:.0} {:.1}\" role=\"img\">", ROOM[0], height + LEGEND);
+        let mut svg = format!("<svg viewBox=\"0 0 {:.0} {:.1}\" role=\"img\" shape-rendering=\"crispEdges\">", ROOM[0], height + LEGEND);
         let corner = |index: usize| {
             let [column, row] = [index % coarse.size[0], index / coarse.size[0]];
             [column as f64 * cell[0], (coarse.size[1] - 1 - row) as f64 * cell[1]]
@@ -49,16 +49,20 @@ impl Drawn {
             svg.push_str(&format!("<rect x=\"{x:.2}\" y=\"{y:.2}\" width=\"{:.2}\" height=\"{:.2}\" fill=\"{fill}\"/>", cell[0], cell[1]));
             svg.push_str(&text(&numbers.form(&short_number(value)), [x + 0.5 * cell[0], y + 0.5 * cell[1]], cell, ink(share(value))));
         }
-        let by_value = |a: &(usize, f64), b: &(usize, f64)| a.1.total_cmp(&b.1);
-        let least = coarse.values.iter().enumerate().filter_map(|(index, value)| Some((index, (*value)?))).min_by(by_value);
-        if let Some((index, _)) = least {
-            let [x, y] = corner(index);
+        if let Some(index) = least(plan) {
+            let [x, y] = corner(index / plan.size[0] / block * coarse.size[0] + index % plan.size[0] / block);
             svg.push_str(&ring([x + 0.5 * cell[0], y + 0.5 * cell[1]], cell));
         }
         svg.push_str(&legend([low, high], height, &plan.unit, numbers));
         svg.push_str("</svg>");
         Self { svg, block }
     }
+}
+
+/// The number of the least point.
+fn least(plan: &Plan) -> Option<usize> {
+    let values = plan.values.iter().enumerate().filter_map(|(index, value)| Some((index, (*value)?)));
+    values.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
 }
 
 /// A value in its cell; nothing where it could not be read.
@@ -76,7 +80,8 @@ fn ring([x, y]: [f64; 2], cell: [f64; 2]) -> String {
     let [rx, ry] = cell.map(|length| (0.46 * length).clamp(3.0, RING));
     let ellipse = |colour: &str, width: f64| {
         format!(
-            "<ellipse cx=\"{x:.2}\" cy=\"{y:.2}\" rx=\"{rx:.2}\" ry=\"{ry:.2}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\"/>"
+            "<ellipse cx=\"{x:.2}\" cy=\"{y:.2}\" rx=\"{rx:.2}\" ry=\"{ry:.2}\" fill=\"none\" stroke=\"{colour}\" \
+             stroke-width=\"{width}\" shape-rendering=\"auto\"/>"
         )
     };
     ellipse("#000", 4.0) + &ellipse("#fff", 2.0)

@@ -1,6 +1,10 @@
 //! What `gonio annual` and `gonio annual-metrics` print: a year of daylight.
 
-use super::{Area, Figure, Found, number, objects, table, text};
+use super::{
+    area::{Area, Figure},
+    object::{Found, number, objects, text},
+    table,
+};
 use crate::{estimate::Estimate, note::Note, plan::Plan};
 use serde_json::{Map, Value};
 
@@ -28,12 +32,12 @@ fn grid(of: &Map<String, Value>, file: usize) -> Found<Area> {
         area.figures.extend(points.figures(&name, plan.as_ref().map(|_| area.plans.len())));
         area.plans.extend(plan);
     }
-    let known = area.plans.clone();
+    let known: Vec<String> = area.plans.iter().map(|plan| plan.of.clone()).collect();
     for (key, value) in table::numbers(of).into_iter().filter(|(key, _)| !NO_FIGURES.contains(&key.as_str())) {
         let error = errors.and_then(|errors| number(errors, &key));
         let mut figure = figure(&key, value.map(|value| Estimate::new(value, error)));
         let shown = SHOWN.iter().find(|(name, _)| *name == key).map(|(_, shown)| *shown);
-        figure.plan = shown.and_then(|shown| known.iter().position(|plan| plan.of == shown));
+        figure.plan = shown.and_then(|shown| known.iter().position(|of| of == shown));
         // The mean of the points' means is the grid's, with its own error.
         area.figures.retain(|other| !other.aliases.contains(&key));
         area.figures.push(figure);

@@ -1,6 +1,9 @@
 //! What `gonio measure` prints: meters and grids.
 
-use super::{Area, Figure, Found, error, number, objects, text};
+use super::{
+    area::{Area, Figure},
+    object::{Found, error, number, objects, text},
+};
 use crate::{estimate::Estimate, note::Note, plan::Plan, unit::Unit};
 use gonio_formats::FormatError;
 use serde_json::{Map, Value};

@@ -1,6 +1,6 @@
 //! Modelling: cylindrical over horizontal illuminance of one place (EN 12464-1).
 
-use super::{Area, Figure};
+use super::area::{Area, Figure};
 use crate::{estimate::Estimate, note::Note, unit::Unit};
 
 /// Gives areas whose cylindrical and horizontal illuminances were both measured, in one file or in two, their ratio.

@@ -1,6 +1,6 @@
 //! What `gonio road` prints: the road, its footpaths, edges and observers.
 
-use super::{Area, number, table};
+use super::{area::Area, object::number, table};
 use crate::{note::Note, plan::Plan, unit::Unit};
 use serde_json::{Map, Value};
 use std::path::Path;

@@ -1,6 +1,6 @@
 //! Figures of files whose numbers stand under their own names.
 
-use super::Figure;
+use super::area::Figure;
 use crate::{estimate::Estimate, unit::Unit};
 use serde_json::{Map, Value};
 
