@@ -175,7 +175,6 @@ fn colour_becomes_light_by_doors_alone() {
             "bsdf/src/surface.rs",
             "light/src/spectra.rs",
             "transport/src/stage/light/merge.rs",
-            "transport/src/stage/shade/forward.rs",
             "transport/src/state/queue/light_samples.rs",
             "transport/src/tables/material.rs",
             "transport/src/tables/media.rs"

@@ -71,7 +71,8 @@ fn light_is_computed_as_colour_is() {
 #[inline(always)]
 fn check_choice<L: Lanes>(l: L) {
     let values = Wavelengths::rgb(l).reflectance(Rgb::splat(l, [10.0, 20.0, 30.0]));
-    let chosen = |weights: [f32; 3], u: f32| Wavelengths::rgb(l).reflectance(Rgb::splat(l, weights)).shares().choose(l.f(u), values).to_array()[0];
+    let chosen =
+        |weights: [f32; 3], u: f32| Wavelengths::rgb(l).reflectance(Rgb::splat(l, weights)).shares().choose(l.f(u), values).to_array()[0];
     assert_eq!([0.0, 0.24, 0.26, 0.74, 0.76, 0.999].map(|u| chosen([1.0, 2.0, 1.0], u)), [10.0, 10.0, 20.0, 20.0, 30.0, 30.0]);
     // Beyond the rounded sum stands the last component that has any probability.
     assert_eq!([[2.0, 0.0, 0.0], [1.0, 3.0, 0.0], [0.0, 0.0, 5.0]].map(|weights| chosen(weights, 1.0)), [10.0, 20.0, 30.0]);

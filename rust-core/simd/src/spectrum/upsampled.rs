@@ -18,8 +18,7 @@ pub(super) fn upsampled<L: Lanes>(table: &WavelengthTable, rotation: U<L>, colou
 
 #[inline(never)]
 fn by_polynomials<L: Lanes>(table: &WavelengthTable, rotation: U<L>, colour: Rgb<L>, most: f32) -> Spectrum<L> {
-    let l = rotation.lanes();
-    l.vectorize(
+    rotation.lanes().vectorize(
         #[inline(always)]
         || {
             let places = places(table, rotation);

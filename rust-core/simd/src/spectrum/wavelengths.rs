@@ -126,6 +126,12 @@ impl<'a, L: Lanes> Wavelengths<'a, L> {
             Some(table) => seen(table, self.rotation, light),
         }
     }
+    /// Light whose components are colour from here on, as its wavelengths will not be known.
+    #[inline(always)]
+    pub fn as_colour(self, light: Spectrum<L>) -> Spectrum<L> {
+        let Rgb { r, g, b } = self.to_rgb(light);
+        Spectrum { r, g, b }
+    }
     /// The wavelengths in nanometres, where light has any.
     #[inline(always)]
     pub fn nanometres(self) -> Option<Spectrum<L>> {
@@ -168,10 +174,10 @@ pub(super) fn places<L: Lanes>(table: &WavelengthTable, rotation: U<L>) -> Spect
 /// Colour of light at three wavelengths.
 #[inline(never)]
 fn seen<L: Lanes>(table: &WavelengthTable, rotation: U<L>, light: Spectrum<L>) -> Rgb<L> {
-    let l = rotation.lanes();
-    l.vectorize(
+    rotation.lanes().vectorize(
         #[inline(always)]
         || {
+            let l = rotation.lanes();
             let first = rotation * (3 * WORDS);
             let mut sum = Rgb::zero(l);
             for (component, value) in [light.r, light.g, light.b].into_iter().enumerate() {
@@ -186,18 +192,16 @@ fn seen<L: Lanes>(table: &WavelengthTable, rotation: U<L>, light: Spectrum<L>) -
 /// What lamps with spectra send. Filters before them stand in the colour: what it is over the spectrum's own colour.
 #[inline(never)]
 fn of_lamps<L: Lanes>(table: &WavelengthTable, rotation: U<L>, spectrum: U<L>, colour: Rgb<L>) -> Spectrum<L> {
-    let l = rotation.lanes();
-    l.vectorize(
+    rotation.lanes().vectorize(
         #[inline(always)]
         || {
+            let l = rotation.lanes();
             let with = spectrum.ne(0);
             let row = with.select(spectrum - 1, spectrum);
             let [r, g, b, _] = l.gather_quads(&table.lamps, (row * table.rotations + rotation) * WORDS);
             let [own_r, own_g, own_b, _] = l.gather_quads(&table.lamp_colours, row * WORDS);
             let luminance = colour.luminance();
-            // Colours beyond Rec.709 have components of nearly nothing, which tell nothing of a filter.
-            let over = |part: F<L>, own: F<L>| own.gt(LEAST_COLOUR).select(part / own.max(LEAST_COLOUR), luminance);
-            let filter = Rgb::new(over(colour.r, own_r), over(colour.g, own_g), over(colour.b, own_b));
+            let filter = Rgb::new(over(colour.r, own_r, luminance), over(colour.g, own_g, luminance), over(colour.b, own_b, luminance));
             let filter = Rgb::select(with, filter, colour);
             let sent = upsampled(table, rotation, filter, f32::MAX);
             Spectrum::select(with, sent * Spectrum { r, g, b }, sent)
@@ -207,3 +211,9 @@ fn of_lamps<L: Lanes>(table: &WavelengthTable, rotation: U<L>, spectrum: U<L>, c
 
 /// Components of a lamp's colour below this are no measure of filters before it.
 const LEAST_COLOUR: f32 = 0.02;
+
+/// A component over the lamp's own. Colours beyond Rec.709 have components of nearly nothing, which tell nothing of a filter: there the luminance does.
+#[inline(always)]
+fn over<L: Lanes>(part: F<L>, own: F<L>, luminance: F<L>) -> F<L> {
+    own.gt(LEAST_COLOUR).select(part / own.max(LEAST_COLOUR), luminance)
+}

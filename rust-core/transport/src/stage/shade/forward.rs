@@ -21,7 +21,7 @@ use crate::{geometry::shadow_ray_to, kernels};
 use gonio_bsdf::{BsdfSample, Hits, LightHits, Lobes};
 use gonio_camera::sampler::dimension;
 use gonio_camera::{CameraTable, Placement};
-use gonio_simd::{F, Lanes, M, One, Spectrum, SpectrumColumns, U, Vec3, Wavelengths};
+use gonio_simd::{F, Lanes, M, One, Spectrum, SpectrumColumns, U, Vec3};
 
 /// What of light paths is wanted.
 #[derive(Clone, Copy, Debug)]
@@ -259,15 +259,16 @@ fn connect<'s, L: Lanes>(
     let ray = RayLanes { origin: to_lens.origin, direction: to_lens.direction, t_min: l.f(0.0), t_max: to_lens.t_max };
     // The slot is the pixel's: light becomes colour here.
     let wavelengths = chunk.sample.wavelengths(l, point.core.slot);
-    let as_colour = |light: Spectrum<L>| Wavelengths::rgb(l).radiance(wavelengths.to_rgb(light));
+    let [diffuse, glossy] = shares;
+    let shares = Some([wavelengths.as_colour(diffuse), wavelengths.as_colour(glossy)]);
     queues.light_paths.connections.rays.append_time(time, lit, chunk.transport.shutter.is_some());
     let sent = ShadowLanes {
         ray,
-        contribution: as_colour(value),
+        contribution: wavelengths.as_colour(value),
         slot: pixel,
         code,
         light,
-        shares: Some(shares.map(as_colour)),
+        shares,
         receiver: None,
         along: point.along(chunk.tables, chunk.transport, to, None),
     };
