@@ -45,6 +45,20 @@ mod tests {
     use super::*;
 
     #[test]
+    fn values_end_where_their_errors_do() {
+        for (value, error, texts) in [
+            (693.912_3, 0.314_15, Some(["693.9", "0.3"])),
+            (48_613.2, 137.0, Some(["48610", "140"])),
+            (0.012_346, 0.000_678, Some(["0.01235", "0.00068"])),
+            (0.1, 12.4, Some(["0", "12"])),
+            (500.0, 0.0, None),
+            (500.0, f64::NAN, None),
+        ] {
+            assert_eq!(rounded(value, error), texts.map(|texts| texts.map(str::to_owned)), "{value} {error}");
+        }
+    }
+
+    #[test]
     fn numbers_are_short() {
         for (value, text) in [
             (0.0, "0"),
