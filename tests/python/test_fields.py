@@ -5,7 +5,8 @@ import math
 import gonio
 import numpy as np
 import pytest
-from small_scenes import finished
+from gonio.medium import medium
+from small_scenes import closure, finished
 from test_media import box, looking, seen, within
 
 
@@ -159,3 +160,19 @@ def test_light_along_a_lattice_is_not_lost():
     scene.add_volume(np.ones((2, 2, 300), "f4"), scattering=0.0, absorption=0.002)
     meter = gonio.measure(scene, samples=16384).meters[0]
     within(meter.value, meter.standard_error, clear * math.exp(-0.6), 0.01)
+
+
+def test_smoke_that_touches_glass_sends_no_light_of_its_own():
+    """Where faces coincide a ray may carry smoke's name out into the open: nothing collides there, however far it goes."""
+    scene = gonio.Scene()
+    scene.add_light("dome", (7.0, 7.0, 7.0))
+    # Two voxels of 1 m a way: from 1 m to the pane at 3 m.
+    scene.add_volume(np.ones((2, 2, 2), "f4"), transform=[[1, 0, 0, -0.5], [0, 1, 0, 1], [0, 0, 1, -0.5], [0, 0, 0, 1]], scattering=1.0)
+    pane = closure("OpenPbr", transmission_weight=1.0, specular_roughness=0.0)
+    pane["solid"] = medium(scattering=2.0)
+    box(scene, (-3, 3, -3), (3, 3.1, 3), [pane])
+    scene.add_camera(gonio.look_at((0.0, 0.1, 0.0), (0.0, 3.0, 0.01), up=(0.0, 0.0, 1.0)), fov=60.0)
+    scene.set(width=48, height=48, samples=64, max_bounces=6, caustics="off")
+    shown = np.asarray(finished(scene)["color"])[..., :3]
+    assert np.isfinite(shown).all()
+    assert shown.min() >= 0.0 and shown.max() < 8.0

@@ -207,7 +207,8 @@ impl<'a, L: Lanes> Track<'a, L> {
             let (majorant, exit) = self.cell(t);
             let exit = exit.min(to);
             let hit = t + flight / majorant.max(f32::MIN_POSITIVE);
-            let collides = active & hit.lt(exit);
+            // Where nothing is there is no collision, however far the ray goes.
+            let collides = active & hit.lt(exit) & majorant.gt(0.0);
             let next = active.select(collides.select(hit, exit), t);
             shines(random.next().mul_add(next - t, t), (next - t).keep_if(active), weight);
             flight = collides.select(depth(random.next()), (flight - majorant * (next - t)).max(0.0));
