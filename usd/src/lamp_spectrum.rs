@@ -34,8 +34,8 @@ pub(crate) fn lamp_spectrum<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py
 }
 
 fn from_name(name: &str) -> Result<LampSpectrum, String> {
-    let unknown = || format!("{SPECTRUM} is '{name}', expected one of {}", LampSpectrum::names());
-    LampSpectrum::named(name).map_err(|error| error.to_string())?.ok_or_else(unknown)
+    let unknown = || format!("{SPECTRUM} is '{name}', expected one of {}", gonio_spectrum::NAMES);
+    gonio_spectrum::named(name).ok_or_else(unknown)?.map(LampSpectrum::from).map_err(|error| format!("{SPECTRUM}: {}", error.problem))
 }
 
 fn from_file(context: &Context<'_, '_>, path: &AssetPath) -> Result<LampSpectrum, String> {

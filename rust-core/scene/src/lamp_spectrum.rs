@@ -1,9 +1,7 @@
 //! Spectra of lamps.
 
-use super::error::{Error, Result};
-use gonio_spectrum::{NAMES, Spectrum, named, read};
+use gonio_spectrum::Spectrum;
 use serde::{Deserialize, Serialize};
-use std::path::Path;
 
 /// Power over wavelength.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -15,30 +13,6 @@ pub struct LampSpectrum {
     pub wavelengths_nm: Vec<f64>,
     /// Power per nanometre at each of them, in any unit.
     pub power: Vec<f64>,
-}
-
-impl LampSpectrum {
-    /// The spectrum of a name as `gonio_spectrum::NAMES` lists them, or `None` where it is none.
-    ///
-    /// # Errors
-    /// A temperature that no such lamp has.
-    pub fn named(name: &str) -> Result<Option<Self>> {
-        named(name).transpose().map(|found| found.map(Self::from)).map_err(|error| Error::setting(name, error.problem))
-    }
-
-    /// What the bytes of a file hold, text of nm and power or IES TM-27.
-    ///
-    /// # Errors
-    /// What is no spectrum, with its line.
-    pub fn read(bytes: &[u8], path: &Path) -> Result<Self> {
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        read(bytes, &name).map(Self::from).map_err(|error| Error::in_file(path, &error))
-    }
-
-    /// What names are understood, for messages.
-    pub fn names() -> &'static str {
-        NAMES
-    }
 }
 
 impl From<Spectrum> for LampSpectrum {

@@ -1,6 +1,7 @@
 //! What the wavelengths of paths mean: the table that kernels read, and the spectra of lamps.
 
 use crate::{
+    colour::luminance_of_pixel,
     error::Diagnostic,
     light::LightTable,
     scene::{LampSpectrum, Light, Observer, Scene},
@@ -12,9 +13,26 @@ use std::sync::{Arc, OnceLock};
 /// Spectra of a scene's lamps, each once.
 #[derive(Clone, Debug, Default)]
 pub(super) struct LampSpectra {
-    spectra: Vec<(Arc<LampSpectrum>, Spectrum)>,
+    spectra: Vec<Lamp>,
     /// By light of the scene, the number of its spectrum counted from 1; 0 is none.
     of_light: Vec<u32>,
+}
+
+/// A spectrum as kernels and colours want it, found once however many lights have it.
+#[derive(Clone, Debug)]
+struct Lamp {
+    source: Arc<LampSpectrum>,
+    /// By rotation: over D65's, of unit luminance.
+    values: Vec<[f32; 3]>,
+    /// Linear Rec.709 of that.
+    colour: [f32; 3],
+}
+
+impl Lamp {
+    fn new(source: &Arc<LampSpectrum>, spectrum: &Spectrum) -> Self {
+        let values = triples().tabulate(spectrum);
+        Self { source: source.clone(), colour: colour(&values), values }
+    }
 }
 
 impl LampSpectra {
@@ -29,12 +47,12 @@ impl LampSpectra {
     }
 
     fn number(&mut self, light: &Light, lamp: &Arc<LampSpectrum>, diagnostics: &mut Vec<Diagnostic>) -> u32 {
-        if let Some(known) = self.spectra.iter().position(|(known, _)| Arc::ptr_eq(known, lamp) || known == lamp) {
+        if let Some(known) = self.spectra.iter().position(|known| Arc::ptr_eq(&known.source, lamp) || known.source == *lamp) {
             return known as u32 + 1;
         }
         match Spectrum::new(&lamp.name, &lamp.wavelengths_nm, &lamp.power) {
             Ok(spectrum) => {
-                self.spectra.push((lamp.clone(), spectrum));
+                self.spectra.push(Lamp::new(lamp, &spectrum));
                 self.spectra.len() as u32
             }
             Err(error) => {
@@ -47,11 +65,10 @@ impl LampSpectra {
 
     /// A light as it shines by its spectrum: its luminance in the spectrum's colour.
     pub(super) fn coloured(&self, number: usize, light: &Light) -> Option<Light> {
-        let (_, spectrum) = self.spectra.get((*self.of_light.get(number)? as usize).checked_sub(1)?)?;
-        let [r, g, b] = light.emission.radiance;
-        let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+        let lamp = self.spectra.get((*self.of_light.get(number)? as usize).checked_sub(1)?)?;
+        let luminance = luminance_of_pixel(light.emission.radiance);
         let mut light = light.clone();
-        light.emission.radiance = colour(spectrum).map(|part| part * luminance);
+        light.emission.radiance = lamp.colour.map(|part| part * luminance);
         Some(light)
     }
 
@@ -75,11 +92,8 @@ impl LampSpectra {
         if self.spectra.is_empty() && scene.settings.observer.is_luminous() {
             return Some(plain.clone());
         }
-        let (mut lamps, mut lamp_colours) = (Vec::new(), Vec::new());
-        for (_, spectrum) in &self.spectra {
-            lamps.extend(triples().tabulate(spectrum).into_iter().flat_map(quad));
-            lamp_colours.extend(quad(colour(spectrum)));
-        }
+        let lamps: Vec<f32> = self.spectra.iter().flat_map(|lamp| &lamp.values).copied().flat_map(quad).collect();
+        let lamp_colours: Vec<f32> = self.spectra.iter().flat_map(|lamp| quad(lamp.colour)).collect();
         let mut table = WavelengthTable { lamps: column(&lamps), lamp_colours: column(&lamp_colours), ..(**plain).clone() };
         if scene.settings.observer == Observer::Melanopic {
             let grey = |value: f32| quad([value; 3]);
@@ -89,11 +103,10 @@ impl LampSpectra {
     }
 }
 
-/// Linear Rec.709 of a spectrum at a luminance of 1.
-fn colour(spectrum: &Spectrum) -> [f32; 3] {
-    let (film, lamp) = (triples().film(), triples().tabulate(spectrum));
+/// Linear Rec.709 of light with these values by rotation.
+fn colour(values: &[[f32; 3]]) -> [f32; 3] {
     let mut sum = [0.0; 3];
-    for (film, lamp) in film.iter().zip(&lamp) {
+    for (film, lamp) in triples().film().iter().zip(values) {
         for (film, value) in film.iter().zip(lamp) {
             sum.iter_mut().zip(film).for_each(|(sum, film)| *sum += f64::from(film * value));
         }
