@@ -13,6 +13,10 @@ from .report import Report
 
 # The least cosine between a level face's normal and the vertical.
 LEVEL = 0.999
+# What the figures of a quantity are called; of others they are illuminances.
+SYMBOLS = {"daylight-factor": "D", "ugr": "UGR", "cct": "CCT", "duv": "Duv", "ra": "Ra", "rf": "Rf", "rg": "Rg"}
+# Quantities that are how much light there is, of which evenness can be told.
+AMOUNTS = ("illuminance", "cylindrical", "daylight-factor", "melanopic-edi")
 
 
 @dataclass
@@ -142,11 +146,13 @@ def work_plane(points, triangles, turn):
 
 def grid_lines(reading) -> tuple[str, ...]:
     """The figures of a grid."""
-    unit, symbol = reading.unit, {"%": "D", "": "UGR"}.get(reading.unit, "E")
+    unit, symbol = reading.unit, SYMBOLS.get(reading.quantity, "E")
     figures = (("avg", reading.average), ("min", reading.min), ("max", reading.max))
     lines = [" ".join(f"{symbol}_{name}: {figure.value:.4g} {unit} ± {figure.standard_error:.2g}".split()) for name, figure in figures]
     columns, rows = reading.size
-    lines += [f"U0: {reading.uniformity:.3f}   Ud: {reading.diversity:.3f}", f"{columns} × {rows} points", *_tabular(reading), *_left_out(reading.coverage)]
+    if reading.quantity in AMOUNTS:
+        lines.append(f"U0: {reading.uniformity:.3f}   Ud: {reading.diversity:.3f}")
+    lines += [f"{columns} × {rows} points", *_tabular(reading), *_left_out(reading.coverage)]
     return tuple(lines)
 
 

@@ -19,6 +19,11 @@ QUANTITIES = (
         "Melanopic equivalent daylight illuminance (CIE S 026) of eyes that look along the object's Y axis, in lx; lamps want spectra",
         4,
     ),
+    ("cct", "Colour Temperature (CCT)", "Correlated colour temperature of the light on the surface, in K", 5),
+    ("duv", "Tint (Duv)", "Distance of the light's colour from the blackbodies: above 0 it is greenish, below 0 pinkish", 6),
+    ("ra", "Colour Rendering (Ra)", "Colour rendering of the light on the surface (CIE 13.3); lamps want spectra", 7),
+    ("rf", "Colour Fidelity (Rf)", "Colour fidelity of the light on the surface (TM-30-20); lamps want spectra", 8),
+    ("rg", "Gamut (Rg)", "Gamut of the light on the surface (TM-30-20); lamps want spectra", 9),
 )
 
 

@@ -1,6 +1,6 @@
 //! One quantity of an EXR file or a Radiance picture.
 
-use super::{file, radiance};
+use super::{file, radiance, wavelengths::derived};
 use gonio::{
     Error, Result,
     film::{Frame, Image, Layer, PictureView},
@@ -43,7 +43,12 @@ impl Picture {
     /// Reads a file. A channel is found by its whole name, or by a part of it between points that no other has: Blender's files call it
     /// `ViewLayer.Luminance.X`.
     pub(super) fn read(path: &Path, quantity: &str) -> Result<Self> {
-        let (channels, size, view) = channels_of(path)?;
+        let (mut channels, size, view) = channels_of(path)?;
+        if channels.iter().all(|(name, _)| name != quantity)
+            && let Some(values) = derived(path, &channels, quantity)?
+        {
+            channels.push((quantity.to_owned(), values));
+        }
         let by_name = channels.iter().position(|(name, _)| name == quantity);
         let has_part = |index: &usize| channels[*index].0.split('.').any(|part| part.eq_ignore_ascii_case(quantity));
         let by_part: Vec<usize> = (0..channels.len()).filter(has_part).collect();
@@ -75,6 +80,8 @@ impl Picture {
         match quantity.to_ascii_lowercase().as_str() {
             "luminance" => "cd/m²",
             "illuminance" => "lx",
+            "cct" => "K",
+            "melanopic" => "cd/m²",
             _ => "",
         }
     }

@@ -18,7 +18,7 @@ pub(super) fn falsecolor(options: &FalsecolorOptions) -> Result<i32> {
     check_targets([&options.output])?;
     let picture = Picture::read(&options.image, &options.quantity)?;
     let style = FalseColour {
-        scale: scale(&options.scale, picture.values())?,
+        scale: of_quantity(options, picture.values())?,
         unit: Picture::unit(&options.quantity).into(),
         contours: options.contours || options.lines,
         smoothing: options.smooth,
@@ -38,6 +38,13 @@ pub(super) fn falsecolor(options: &FalsecolorOptions) -> Result<i32> {
 pub(super) fn scale(arguments: &ScaleArguments, values: &[f32]) -> Result<FalseColourScale> {
     let max = arguments.max.unwrap_or_else(|| FalseColourScale::round_max(values));
     FalseColourScale::new(max, arguments.steps, arguments.log)
+}
+
+/// The scale of a picture; of CCT and Duv, whose 0 means nothing, from the least to the greatest unless a greatest is asked for.
+fn of_quantity(options: &FalsecolorOptions, values: &[f32]) -> Result<FalseColourScale> {
+    let is_of_colour = ["cct", "duv"].iter().any(|name| options.quantity.eq_ignore_ascii_case(name));
+    let even = scale(&options.scale, values)?;
+    Ok(if is_of_colour && options.scale.max.is_none() { FalseColourScale::around(values, options.scale.steps) } else { even })
 }
 
 /// A canvas as a PNG file's bytes, for the file at a path.

@@ -5,6 +5,7 @@ mod arguments;
 mod autocrop;
 mod bench;
 mod bsdf;
+mod by_wavelength;
 mod channel;
 mod checkpoint;
 mod client_page;
@@ -41,6 +42,7 @@ mod relight;
 mod render;
 mod report;
 mod road;
+mod sensor;
 mod sequence;
 mod share;
 mod snapshot;
@@ -49,6 +51,7 @@ mod stage;
 mod verdict;
 mod view;
 mod volume;
+mod wavelengths;
 
 pub use farm::farm_scene;
 pub use view::{Viewed, view_scene};
@@ -106,6 +109,7 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
         Command::Relight(options) => py.detach(|| relight::relight(&options)),
         Command::Photometry(options) => photometry::photometry(&options),
         Command::Spectrum(options) => spectrum::spectrum(&options),
+        Command::Sensor(options) => py.detach(|| sensor::sensor(&options)),
         Command::Bsdf(options) => bsdf::bsdf(py, &options, &INTERRUPTED),
         Command::Measure(options) => measure::measure(py, &options, &INTERRUPTED),
         Command::Dim(options) => dim::dim(py, &options, &INTERRUPTED),

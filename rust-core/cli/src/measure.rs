@@ -10,12 +10,15 @@ use super::{
     messages::print,
     progress::Reporter,
     render::{MOST_WARNINGS, stage_options},
+    spectrum::figures_json,
     stage::{Stage, light_model},
 };
 use gonio::{
     Error, Result,
     compile::CompiledScene,
-    measure::{GridReading, MOST_BOUNCES, Measurements, MeterReading, Reading, Watch, csv, measure as evaluate, value_picture},
+    measure::{
+        ColourReading, GridReading, MOST_BOUNCES, Measurements, MeterReading, Reading, Watch, csv, measure as evaluate, value_picture,
+    },
     output::FalseColour,
     scene::{Integrator, Measurand, Meter, Origin, Scene},
 };
@@ -161,7 +164,7 @@ fn draw(options: &MeasureOptions, found: &Measurements, path: &Path) -> Result<(
     }
     for (number, grid) in found.grids.iter().enumerate() {
         let style = FalseColour {
-            scale: falsecolor::scale(&options.scale, &grid.values())?,
+            scale: grid.scale(options.scale.max, options.scale.steps, options.scale.log)?,
             unit: grid.measurand.unit().into(),
             contours: true,
             smoothing: 0,
@@ -184,14 +187,24 @@ fn named(path: &Path, grid: &GridReading, number: usize) -> PathBuf {
 
 fn meter_line(meter: &MeterReading) -> String {
     let (measurand, [x, y, z]) = (meter.meter.measurand, meter.meter.position);
-    let (name, figure) = (measurand.name(), figure(&meter.reading, 4, &spaced(measurand)));
-    let note = meter.rating_note().map_or(String::new(), |note| format!("; {note}"));
+    let (name, figure) = (measurand.name(), figure(&meter.reading, places(measurand, [4, 2]), &spaced(measurand)));
+    let note = meter.note().map_or(String::new(), |note| format!("; {note}"));
     format!("{}: {name} {figure} at {x:.3}, {y:.3}, {z:.3} m{note}", meter.meter.origin)
 }
 
+/// Places of a value and of its error: those that matter of figures of colour, else these.
+fn places(measurand: Measurand, others: [usize; 2]) -> [usize; 2] {
+    match measurand {
+        Measurand::Cct => [1; 2],
+        Measurand::Duv => [5; 2],
+        Measurand::Ra | Measurand::Rf | Measurand::Rg => [2; 2],
+        _ => others,
+    }
+}
+
 /// A value of so many places with its standard error; in words where there is none.
-fn figure(Reading { value, standard_error }: &Reading, places: usize, unit: &str) -> String {
-    if value.is_nan() { "not measured".into() } else { format!("{value:.places$}{unit} ± {standard_error:.2}") }
+fn figure(Reading { value, standard_error }: &Reading, [places, of_error]: [usize; 2], unit: &str) -> String {
+    if value.is_nan() { "not measured".into() } else { format!("{value:.places$}{unit} ± {standard_error:.of_error$}") }
 }
 
 /// The unit's sign with a blank before it; nothing where there is none.
@@ -204,7 +217,8 @@ fn grid_lines(grid: &GridReading) -> Vec<String> {
     let (unit, summary) = (spaced(grid.measurand), &grid.summary);
     let [columns, rows] = grid.size;
     let [along, across] = grid.spacing;
-    let figure = |name: &str, reading: &Reading| format!("  {name}: {}", figure(reading, 2, &unit));
+    let places = places(grid.measurand, [2; 2]);
+    let figure = |name: &str, reading: &Reading| format!("  {name}: {}", figure(reading, places, &unit));
     let mut lines = vec![
         format!(
             "{}: {}, {columns} × {rows} points ({} measured), {along:.3} × {across:.3} m apart",
@@ -215,9 +229,11 @@ fn grid_lines(grid: &GridReading) -> Vec<String> {
         figure("average", &summary.average),
         figure("least", &summary.min),
         figure("greatest", &summary.max),
-        format!("  U0 (least / average): {:.3}", summary.uniformity()),
-        format!("  Ud (least / greatest): {:.3}", summary.diversity()),
     ];
+    if grid.measurand.is_amount() {
+        lines.push(format!("  U0 (least / average): {:.3}", summary.uniformity()));
+        lines.push(format!("  Ud (least / greatest): {:.3}", summary.diversity()));
+    }
     lines.extend(grid.rating_note().map(|note| format!("  {note}")));
     lines
 }
@@ -235,6 +251,7 @@ fn as_json(found: &Measurements) -> Value {
             "ugr_coverage": meter.coverage.as_ref().map(coverage_json),
             "ugr_small_sources": meter.small.map(|small| small.count),
             "ugr_as_in_tables": meter.small.and_then(|small| small.tabular).as_ref().map(reading),
+            "colour": meter.colour.as_ref().map(|colour| colour_json(colour)),
         })
     };
     let grid = |grid: &GridReading| {
@@ -255,6 +272,7 @@ fn as_json(found: &Measurements) -> Value {
             "ugr_coverage": grid.coverage.iter().map(coverage_json).collect::<Vec<_>>(),
             "ugr_small_sources": grid.small.iter().map(|small| small.count).collect::<Vec<_>>(),
             "ugr_as_in_tables": grid.small.iter().map(|small| small.tabular.map(|reading| reading.value)).collect::<Vec<_>>(),
+            "colours": grid.colours.iter().map(|colour| colour_json(colour)).collect::<Vec<_>>(),
             "values": grid.points.iter().map(|point| point.map(|(_, reading)| reading.value)).collect::<Vec<_>>(),
         })
     };
@@ -262,4 +280,20 @@ fn as_json(found: &Measurements) -> Value {
         "meters": found.meters.iter().map(meter).collect::<Vec<_>>(),
         "grids": found.grids.iter().map(grid).collect::<Vec<_>>(),
     })
+}
+
+/// All that a spectrum says which a meter got, and the spectrum.
+fn colour_json(colour: &ColourReading) -> Value {
+    let mut all = colour.figures.as_ref().map(figures_json).unwrap_or_default();
+    let figures = [Measurand::Cct, Measurand::Duv, Measurand::Ra, Measurand::Rf, Measurand::Rg];
+    let named = figures.map(|measurand| (measurand.name(), colour.of(measurand)));
+    let others = [("illuminance_lx", Some(colour.illuminance)), ("melanopic_edi_lx", colour.melanopic_edi())];
+    all.extend(others.iter().map(|(name, reading)| ((*name).to_owned(), json!(reading.map(|reading| reading.value)))));
+    let errors = named.into_iter().chain(others).map(|(name, reading)| (name, reading.map(|reading| reading.standard_error)));
+    all.insert("standard_errors".to_owned(), Value::from_iter(errors.map(|(name, error)| (name.to_owned(), json!(error)))));
+    let at_all = |of: fn(&Reading) -> f64| colour.spectrum.iter().map(of).collect::<Vec<_>>();
+    all.insert("wavelengths_nm".to_owned(), json!(colour.wavelengths_nm()));
+    all.insert("irradiance_w_m2_nm".to_owned(), json!(at_all(|reading| reading.value)));
+    all.insert("irradiance_standard_errors".to_owned(), json!(at_all(|reading| reading.standard_error)));
+    Value::Object(all)
 }

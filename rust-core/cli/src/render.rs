@@ -2,7 +2,7 @@
 
 use super::{
     arguments::{ComplexityArgument, FilterArgument, HeadlightArgument, RenderOptions, StageArguments},
-    autocrop,
+    autocrop, by_wavelength,
     checkpoint::{Keeper, sample_range, take_part},
     daylight, explain,
     file::check_targets,
@@ -72,6 +72,7 @@ pub(super) fn render(py: Python<'_>, options: &RenderOptions, interrupted: &'sta
     }
     let execution = Execution::detect();
     let writer = Writer::new(&options.files, execution)?;
+    by_wavelength::check(&options.files)?;
     let frames = frames_of(options, stage.info().time_range.map(|[first, _]| first))?;
     Snapshots::new(options.snapshot)?;
     let mut sequence =
@@ -107,7 +108,11 @@ impl Sequence<'_> {
         let of_frame = |path: &PathBuf| file_name::filled_in(path, named);
         let checkpoint = options.checkpoint.checkpoint.as_ref().map(of_frame).transpose()?;
         let deep = options.files.deep.as_ref().map(of_frame).transpose()?;
-        let pictures = if options.files.output.is_empty() && checkpoint.is_none() && deep.is_none() {
+        let by_wavelength = options.files.by_wavelength.as_ref().map(of_frame).transpose()?;
+        let by_wavelength_alone = by_wavelength.is_some() && options.files.output.is_empty() && checkpoint.is_none() && deep.is_none();
+        let pictures = if by_wavelength_alone {
+            vec![Picture::of_all_products(&loaded, std::iter::empty(), None)]
+        } else if options.files.output.is_empty() && checkpoint.is_none() && deep.is_none() {
             self.products.pictures(&loaded, named)?
         } else {
             let paths: Vec<PathBuf> = options.files.output.iter().map(of_frame).collect::<Result<_>>()?;
@@ -121,10 +126,25 @@ impl Sequence<'_> {
             let Some(scene) = scene else { break };
             let checkpoint = checkpoint.clone();
             let is_first = number == 0;
-            let job = Job { options, writer, execution, picture, is_first, checkpoint, loading, waited_for_meshes, time, interrupted };
+            let by_wavelength = by_wavelength.clone().filter(|_| is_first);
+            let job = Job {
+                options,
+                writer,
+                execution,
+                picture,
+                is_first,
+                checkpoint,
+                by_wavelength,
+                by_wavelength_alone,
+                loading,
+                waited_for_meshes,
+                time,
+                interrupted,
+            };
             let previous = self.previous.as_deref();
-            let compiled = py.detach(|| job.run(scene, previous))?;
-            self.previous = Some(compiled);
+            if let Some(compiled) = py.detach(|| job.run(scene, previous))? {
+                self.previous = Some(compiled);
+            }
         }
         Ok(())
     }
@@ -133,7 +153,8 @@ impl Sequence<'_> {
 /// The files that the command line names for a frame.
 pub(super) fn files_of(options: &RenderOptions, stage: &Stage, frame: Option<f64>) -> Result<Vec<PathBuf>> {
     let frame = file_name::named_frame(frame, stage.info().time_range, options.default_time);
-    let named = options.files.output.iter().chain(&options.files.deep).chain(&options.checkpoint.checkpoint);
+    let files = &options.files;
+    let named = files.output.iter().chain(&files.deep).chain(&files.by_wavelength).chain(&options.checkpoint.checkpoint);
     named.map(|path| file_name::filled_in(path, frame)).collect()
 }
 
@@ -160,6 +181,7 @@ pub(super) fn frames_of(options: &RenderOptions, first: Option<f64>) -> Result<V
         .iter()
         .map(|path| ("output", path))
         .chain(options.files.deep.iter().map(|path| ("deep", path)))
+        .chain(options.files.by_wavelength.iter().map(|path| ("by-wavelength", path)))
         .chain(options.checkpoint.checkpoint.iter().map(|path| ("checkpoint", path)));
     if let (true, Some((name, path))) = (frames.len() > 1, files.find(|(_, path)| !has_frame(path))) {
         return Err(Error::Setting {
@@ -258,6 +280,9 @@ struct Job<'a> {
     /// Of its frame: it tells what the stage has to tell.
     is_first: bool,
     checkpoint: Option<PathBuf>,
+    /// The picture by wavelength, and whether there is to be nothing else.
+    by_wavelength: Option<PathBuf>,
+    by_wavelength_alone: bool,
     loading: Duration,
     waited_for_meshes: Duration,
     /// Of the frame, seconds.
@@ -266,13 +291,19 @@ struct Job<'a> {
 }
 
 impl Job<'_> {
-    /// Compiles, renders and writes; gives the compiled scene for the next frame to reuse.
-    fn run(&self, mut loaded: Loaded, previous: Option<&CompiledScene>) -> Result<Arc<CompiledScene>> {
+    /// Compiles, renders and writes; gives the compiled scene for the next frame to reuse, if there is one.
+    fn run(&self, mut loaded: Loaded, previous: Option<&CompiledScene>) -> Result<Option<Arc<CompiledScene>>> {
         // Render products of the stage name files too.
         check_targets(self.picture.files.iter().map(|file| &file.path).chain(&self.picture.deep))?;
         complete_scene(self.options, &mut loaded, self.picture.product)?;
         if self.is_first && !self.options.quiet {
             list(&loaded.diagnostics, if self.options.stage.verbose { usize::MAX } else { MOST_WARNINGS });
+        }
+        if let Some(path) = &self.by_wavelength {
+            by_wavelength::render(self.options, &loaded.scene, path, self.execution, self.interrupted)?;
+        }
+        if self.by_wavelength_alone {
+            return Ok(None);
         }
         let hidden = self.writer.ask_for_passes(&mut loaded.scene.settings);
         if !self.picture.deep.is_empty() {
@@ -282,7 +313,7 @@ impl Job<'_> {
         self.complain(&compiled)?;
         self.tell_sizes(&compiled);
         self.trace(&loaded.scene, &compiled, &hidden)?;
-        Ok(compiled)
+        Ok(Some(compiled))
     }
 
     /// Command line over render settings over defaults.

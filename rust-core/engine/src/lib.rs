@@ -18,6 +18,7 @@ pub mod rays;
 pub mod render;
 pub mod sample_bsdf;
 pub mod sky;
+pub mod spectral_picture;
 pub mod threads;
 
 pub use gonio_accel as accel;

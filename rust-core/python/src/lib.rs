@@ -32,6 +32,7 @@ mod render;
 mod sample;
 mod scene;
 mod settings;
+mod spectral_picture;
 mod spectrum;
 mod table;
 mod usd;
@@ -85,6 +86,8 @@ mod _gonio {
     use crate::sample::{SampleReading, sample_bsdf};
     #[pymodule_export]
     use crate::scene::Scene;
+    #[pymodule_export]
+    use crate::spectral_picture::{SpectralPicture, spectral_picture};
     #[pymodule_export]
     use crate::spectrum::{colour_reflectance, illuminant, read_spectrum, spectrum_figures};
     #[pymodule_export]

@@ -2,18 +2,22 @@
 
 use crate::{
     array::Array,
+    error::exception,
     glare::Coverage,
-    picture::{self, Picture},
+    picture::Picture,
     render::Render,
     scene::Scene,
+    spectrum::figures_described,
     watched::{unless, watched},
 };
 use gonio::{
     measure::{self, Summary, Watch},
-    scene::Scene as Description,
+    output::FalseColour,
+    scene::{Measurand, Scene as Description},
 };
 use gonio_simd::Execution;
-use pyo3::prelude::*;
+use pyo3::{prelude::*, types::PyDict};
+use std::sync::Arc;
 
 /// A value with its standard error, in the quantity's unit.
 #[pyclass(frozen, module = "gonio")]
@@ -21,11 +25,12 @@ pub(crate) struct Reading {
     reading: measure::Reading,
     coverage: Option<measure::glare::Coverage>,
     small: Option<measure::SmallSources>,
+    colour: Option<Arc<measure::ColourReading>>,
 }
 
 impl Reading {
     pub(crate) fn of(reading: measure::Reading) -> Self {
-        Self { reading, coverage: None, small: None }
+        Self { reading, coverage: None, small: None, colour: None }
     }
 }
 
@@ -56,12 +61,40 @@ impl Reading {
     fn as_in_tables(&self) -> Option<Self> {
         self.small.and_then(|small| small.tabular).map(Self::of)
     }
+    /// Of a meter's figure of colour everything that the light's spectrum says: as `spectrum_figures` has it, and illuminance_lx, melanopic_edi_lx,
+    /// standard_errors, wavelengths_nm, irradiance in W/(m² nm), irradiance_standard_errors; None of other quantities.
+    #[getter]
+    fn colour<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
+        self.colour.as_ref().map(|colour| colour_described(py, colour)).transpose()
+    }
     fn __float__(&self) -> f64 {
         self.reading.value
     }
     fn __repr__(&self) -> String {
         format!("<gonio.Reading: {} ± {}>", self.reading.value, self.reading.standard_error)
     }
+}
+
+/// What the spectrum at a meter says.
+fn colour_described<'py>(py: Python<'py>, colour: &measure::ColourReading) -> PyResult<Bound<'py, PyDict>> {
+    let described = match &colour.figures {
+        Some(figures) => figures_described(py, figures)?,
+        None => PyDict::new(py),
+    };
+    let errors = PyDict::new(py);
+    for measurand in [Measurand::Cct, Measurand::Duv, Measurand::Ra, Measurand::Rf, Measurand::Rg] {
+        errors.set_item(measurand.name(), colour.of(measurand).map(|reading| reading.standard_error))?;
+    }
+    for (name, reading) in [("illuminance_lx", Some(colour.illuminance)), ("melanopic_edi_lx", colour.melanopic_edi())] {
+        described.set_item(name, reading.map(|reading| reading.value))?;
+        errors.set_item(name, reading.map(|reading| reading.standard_error))?;
+    }
+    described.set_item("standard_errors", errors)?;
+    let at_all = |of: fn(&measure::Reading) -> f64| Array::flat(colour.spectrum.iter().map(of).collect());
+    described.set_item("wavelengths_nm", Array::flat(colour.wavelengths_nm().to_vec()))?;
+    described.set_item("irradiance", at_all(|reading| reading.value))?;
+    described.set_item("irradiance_standard_errors", at_all(|reading| reading.standard_error))?;
+    Ok(described)
 }
 
 /// What a grid shows. Arrays have the grid's rows and columns, and nan where the area does not reach.
@@ -132,6 +165,11 @@ impl GridReading {
     fn coverage(&self) -> Vec<Coverage> {
         self.grid.coverage.iter().map(Coverage::of).collect()
     }
+    /// Of figures of colour what `Reading.colour` has, of each point that was measured; empty of other quantities.
+    #[getter]
+    fn colours<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
+        self.grid.colours.iter().map(|colour| colour_described(py, colour)).collect()
+    }
     /// Glare ratings by CIE 117 alone, as UGR tables have them, at the points that were measured; nan where a source is a point, empty of other quantities.
     #[getter]
     fn as_in_tables(&self) -> Array {
@@ -172,10 +210,12 @@ impl GridReading {
     fn positions(&self) -> Array {
         Array::rows(self.grid.points.iter().flatten().flat_map(|(position, _)| *position).collect(), 3)
     }
-    /// False colour with isolines, the values at their points, and a legend; `max` is the upper end of the scale, a round number without it.
+    /// False colour with isolines, the values at their points, and a legend; `max` is the upper end of the scale, a round number without it. Scales of
+    /// figures of colour begin at the least value.
     #[pyo3(signature = (*, max = None, steps = 10, log = None, contours = true, legend = true))]
     fn picture(&self, max: Option<f32>, steps: u32, log: Option<f32>, contours: bool, legend: bool) -> PyResult<Picture> {
-        let style = picture::style(&self.grid.values(), max, steps, log, self.unit(), [contours, legend], 0)?;
+        let scale = self.grid.scale(max, steps, log).map_err(exception)?;
+        let style = FalseColour { scale, unit: self.unit().to_owned(), contours, smoothing: 0, legend };
         Ok(Picture::of(measure::value_picture(&self.grid, &style), style))
     }
 }
@@ -191,7 +231,13 @@ impl Measurements {
     /// Readings of the meters, in the scene's order.
     #[getter]
     fn meters(&self) -> Vec<Reading> {
-        self.found.meters.iter().map(|meter| Reading { reading: meter.reading, coverage: meter.coverage, small: meter.small }).collect()
+        let of = |meter: &measure::MeterReading| Reading {
+            reading: meter.reading,
+            coverage: meter.coverage,
+            small: meter.small,
+            colour: meter.colour.clone(),
+        };
+        self.found.meters.iter().map(of).collect()
     }
     /// Readings of the grids, in the scene's order.
     #[getter]

@@ -1,7 +1,7 @@
 //! Spectra of lamps and what they say.
 
 use crate::error::{exception, setting};
-use gonio_spectrum::{OPSINS, REC709_TO_REC2020, Spectrum, White, named, upsampling};
+use gonio_spectrum::{Figures, OPSINS, REC709_TO_REC2020, Spectrum, White, named, upsampling};
 use pyo3::{prelude::*, types::PyDict};
 
 /// The spectrum of a file's bytes, text of nm and power or IES TM-27: `name`, `wavelengths_nm`, `power` over its largest, and `notes` on the data.
@@ -43,6 +43,11 @@ fn described<'py>(py: Python<'py>, spectrum: &Spectrum) -> PyResult<Bound<'py, P
 pub(crate) fn spectrum_figures<'py>(py: Python<'py>, wavelengths_nm: Vec<f64>, power: Vec<f64>) -> PyResult<Bound<'py, PyDict>> {
     let spectrum = Spectrum::new("", &wavelengths_nm, &power).map_err(|error| setting("spectrum", error.problem))?;
     let figures = py.detach(|| gonio_spectrum::figures(&spectrum));
+    figures_described(py, &figures)
+}
+
+/// All figures of a spectrum; what is undefined is None.
+pub(crate) fn figures_described<'py>(py: Python<'py>, figures: &Figures) -> PyResult<Bound<'py, PyDict>> {
     let described = PyDict::new(py);
     for (key, value) in [
         ("x", figures.xy[0]),
@@ -64,7 +69,7 @@ pub(crate) fn spectrum_figures<'py>(py: Python<'py>, wavelengths_nm: Vec<f64>, p
     }
     described.set_item("alpha_opic", receptors)?;
     of_white(&described, figures.white.as_ref())?;
-    described.set_item("notes", figures.notes)?;
+    described.set_item("notes", &figures.notes)?;
     Ok(described)
 }
 

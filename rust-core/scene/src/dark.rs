@@ -11,6 +11,16 @@ impl Scene {
     }
 }
 
+impl Scene {
+    /// Whether anything may send light that is no light: a surface, a solid, what fills meshes or all of space.
+    pub fn shines_without_lights(&self) -> bool {
+        let shines = |medium: &Medium| medium.emission != [0.0; 3];
+        let closure = |closure: &Closure| shines(&closure.solid) || closure.input("emission_color").is_some();
+        let material = |material: &Material| shines(&material.medium) || material.closures.iter().any(closure);
+        shines(&self.atmosphere) || self.materials.iter().any(material)
+    }
+}
+
 fn dark_material(material: &Material) -> Material {
     let closures = material.closures.iter().map(dark_closure).collect();
     Material { closures, medium: dark_medium(&material.medium), ..material.clone() }
@@ -57,6 +67,7 @@ mod tests {
 
     #[test]
     fn lights_alone_send_light() {
+        assert!(sending(5.0, Input::Node(NodeId(0), Channel::Rgb)).shines_without_lights() && !Scene::default().shines_without_lights());
         let glowing = sending(5.0, Input::Node(NodeId(0), Channel::Rgb));
         let (dark, expected) = (glowing.without_emission(), sending(0.0, Input::Constant([0.0, 0.0, 0.0, 1.0])));
         assert_eq!((&dark.materials, dark.atmosphere), (&expected.materials, expected.atmosphere));

@@ -19,19 +19,34 @@ pub enum Measurand {
     Luminance,
     /// Melanopic equivalent daylight illuminance at an eye that looks along `facing`, lx (CIE S 026): by wavelengths, so lamps want spectra.
     MelanopicEdi,
+    /// Correlated colour temperature of what a plane gets, K (CIE 15).
+    Cct,
+    /// Its signed distance from the blackbodies in the CIE 1960 diagram, positive above them (greenish).
+    Duv,
+    /// Colour rendering by it (CIE 13.3): lamps want spectra.
+    Ra,
+    /// Colour fidelity (TM-30-20): lamps want spectra.
+    Rf,
+    /// Gamut (TM-30-20): lamps want spectra.
+    Rg,
     /// Of the luminaires' glare, as an eye rates it that looks along `facing` and stands upright along `normal`; without a unit (CIE 117).
     Ugr,
 }
 
 impl Measurand {
     /// All with their names.
-    pub const NAMES: [(Self, &'static str); 7] = [
+    pub const NAMES: [(Self, &'static str); 12] = [
         (Self::Illuminance, "illuminance"),
         (Self::Cylindrical, "cylindrical"),
         (Self::Semicylindrical, "semicylindrical"),
         (Self::DaylightFactor, "daylight-factor"),
         (Self::Luminance, "luminance"),
         (Self::MelanopicEdi, "melanopic-edi"),
+        (Self::Cct, "cct"),
+        (Self::Duv, "duv"),
+        (Self::Ra, "ra"),
+        (Self::Rf, "rf"),
+        (Self::Rg, "rg"),
         (Self::Ugr, "ugr"),
     ];
 
@@ -49,8 +64,21 @@ impl Measurand {
             Self::Illuminance | Self::Cylindrical | Self::Semicylindrical | Self::MelanopicEdi => "lx",
             Self::DaylightFactor => "%",
             Self::Luminance => "cd/m²",
-            Self::Ugr => "",
+            Self::Cct => "K",
+            Self::Duv | Self::Ra | Self::Rf | Self::Rg | Self::Ugr => "",
         }
+    }
+    /// Whether it says something of the light's spectrum and not how much there is.
+    pub fn is_of_colour(self) -> bool {
+        matches!(self, Self::Cct | Self::Duv | Self::Ra | Self::Rf | Self::Rg)
+    }
+    /// Whether the colour of a lamp does not tell it.
+    pub fn wants_spectra(self) -> bool {
+        matches!(self, Self::MelanopicEdi | Self::Ra | Self::Rf | Self::Rg)
+    }
+    /// Whether it is how much light there is, in parts of which its evenness can be told.
+    pub fn is_amount(self) -> bool {
+        !self.is_of_colour() && self != Self::Ugr
     }
 }
 

@@ -40,6 +40,11 @@ pub(crate) fn melanopic(nm: f64) -> f64 {
     SPECTRA.at(4, nm)
 }
 
+/// The melanopic equivalent daylight luminance of a radiance of 1 W/(m² sr) at a wavelength in nm, cd/m² (of an irradiance, lx).
+pub fn melanopic_daylight(nm: f64) -> f64 {
+    melanopic(nm) / DAYLIGHT[4]
+}
+
 fn efficacies(nodes: &[Node]) -> [f64; 5] {
     let [luminous] = sums(nodes, |nm| [cie_1931(nm)[1]]);
     sums(nodes, |nm| SPECTRA.all::<5>(nm)).map(|sum| sum / (EFFICACY * luminous))

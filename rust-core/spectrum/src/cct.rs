@@ -1,6 +1,6 @@
 //! Correlated colour temperature: the blackbody nearest in the CIE 1960 diagram (CIE 15), and how far it is, Duv (ANSI C78.377).
 
-use crate::{illuminant::planck, observer};
+use crate::{illuminant::planck, observer, white::turned};
 use std::sync::LazyLock;
 
 /// The lowest temperature that is looked for, K.
@@ -34,6 +34,32 @@ fn blackbody(log: f64) -> [f64; 2] {
     }
     observer::uv(sums)
 }
+
+/// Correlated colour temperature in K, to about a kelvin, and Duv of linear Rec.709, for pictures; `None` where it is not white.
+pub fn cct_of_colour(rec709: [f64; 3]) -> Option<(f64, f64)> {
+    let uv = observer::uv(turned(&REC709_TO_XYZ, rec709));
+    let squared = |place: usize| distance(uv, LOCUS[place].1).powi(2);
+    let nearest = (0..LOCUS.len()).min_by(|a, b| squared(*a).total_cmp(&squared(*b)))?.clamp(1, LOCUS.len() - 2);
+    // The parabola through the three squares has its least between them.
+    let [below, here, above] = [nearest - 1, nearest, nearest + 1].map(squared);
+    let shift = 0.5 * (below - above) / (below - 2.0 * here + above);
+    let step = LOCUS[1].0 - LOCUS[0].0;
+    let kelvin = (LOCUS[nearest].0 + shift * step).exp();
+    let part = |k: usize| {
+        let [a, b, c] = [nearest - 1, nearest, nearest + 1].map(|place| LOCUS[place].1[k]);
+        b + shift * (0.5 * (c - a) + 0.5 * shift * (a - 2.0 * b + c))
+    };
+    let on = [part(0), part(1)];
+    let duv = distance(uv, on).copysign(uv[1] - on[1]);
+    ((LOWEST_CCT..=HIGHEST_CCT).contains(&kelvin) && duv.abs() <= LARGEST_DUV).then_some((kelvin, duv))
+}
+
+/// To tristimulus values from linear Rec.709.
+const REC709_TO_XYZ: [[f64; 3]; 3] = [
+    [0.412_390_799_265_959, 0.357_584_339_383_878, 0.180_480_788_401_834],
+    [0.212_639_005_871_51, 0.715_168_678_767_756, 0.072_192_315_360_734],
+    [0.019_330_818_715_592, 0.119_194_779_794_626, 0.950_532_152_249_661],
+];
 
 fn distance([u0, v0]: [f64; 2], [u1, v1]: [f64; 2]) -> f64 {
     (u1 - u0).hypot(v1 - v0)

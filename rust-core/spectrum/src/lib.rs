@@ -16,12 +16,14 @@
 
 mod alpha_opic;
 mod appearance;
+mod bands;
 mod cct;
 mod check;
 mod drawing;
 mod figures;
 mod illuminant;
 mod integral;
+mod mixture;
 mod named;
 mod observer;
 mod read;
@@ -33,16 +35,18 @@ mod triples;
 mod upsampling;
 mod white;
 
-pub use alpha_opic::{AlphaOpic, OPSINS};
-pub use cct::{HIGHEST_CCT, LARGEST_DUV, LOWEST_CCT};
+pub use alpha_opic::{AlphaOpic, OPSINS, melanopic_daylight};
+pub use bands::{Bands, bands_of};
+pub use cct::{HIGHEST_CCT, LARGEST_DUV, LOWEST_CCT, cct_of_colour};
 pub use drawing::spectrum_drawing;
 pub use figures::{Figures, White, figures};
+pub use mixture::Mixture;
 pub use named::{NAMES, named};
-pub use read::read;
+pub use read::{read, response::Response};
 pub use rendering::{Rendering, TOLERANCE};
 pub use rendition::{HueBin, Rendition};
 pub use source::Spectrum;
-pub use triples::{BinShares, Triples, triples};
+pub use triples::{Triples, triples};
 pub use upsampling::{REC709_TO_REC2020, Upsampling, upsampling};
 
 #[cfg(test)]

@@ -1,6 +1,10 @@
 //! The spectrum of a source, and how it is summed.
 
-use crate::check;
+use crate::{
+    check,
+    observer::{EFFICACY, cie_1931},
+    triples::power,
+};
 use gonio_formats::FormatError;
 
 /// The widest step that is summed as it is, nm (CIE 15, CIE 224); within wider ones a spectrum is linear.
@@ -48,6 +52,17 @@ impl Spectrum {
         }
         let points = wavelengths_nm.iter().zip(power).map(|(nm, power)| Point { nm: *nm, power: *power, line: None });
         check::checked(name, points.collect())
+    }
+
+    /// The power at a wavelength in nm: linear between the points, zero beyond them.
+    pub fn at(&self, nm: f64) -> f64 {
+        power(self, nm)
+    }
+
+    /// Lumens of a power in W/nm, or lux of an irradiance in W/(m² nm).
+    pub fn luminous(&self) -> f64 {
+        let [luminous] = sums(&self.nodes(), |nm| [cie_1931(nm)[1]]);
+        EFFICACY * luminous
     }
 
     /// The points of its sums.

@@ -6,17 +6,8 @@
 
 mod course;
 
-use crate::{
-    alpha_opic,
-    integral::{Integral, VISIBLE},
-    observer::EFFICACY,
-    source::Spectrum,
-    white,
-};
+use crate::{alpha_opic, integral::Integral, source::Spectrum, white};
 use std::sync::LazyLock;
-
-/// The narrowest bin of [`Triples::bins`], nm.
-const NARROWEST: f64 = 0.1;
 
 /// Cells of three wavelengths.
 #[derive(Debug)]
@@ -24,9 +15,6 @@ pub struct Triples {
     /// [`Triples::COUNT`] + 1 edges, nm, of the long, the middle and the short wavelength (this order, as red, green, blue).
     pub edges: Vec<[f64; 3]>,
 }
-
-/// What a value at a wavelength adds to bins: the bin, and W/(m² nm sr) there for each cd/m² of D65.
-pub type BinShares = Vec<(u32, f32)>;
 
 static TRIPLES: LazyLock<Triples> = LazyLock::new(|| Triples { edges: course::edges() });
 
@@ -96,30 +84,15 @@ impl Triples {
         };
         self.cells().map(|cell| cell.map(mean)).collect()
     }
-
-    /// By cell and wavelength: what a value there adds to the spectral radiance in bins of a width in nm (0.1 at least) from 380 nm on, the last
-    /// of which ends at 780 nm. The mean over cells of value times share is the mean spectral radiance within the bin.
-    pub fn bins(&self, width_nm: f64) -> Vec<[BinShares; 3]> {
-        let [first, last] = VISIBLE;
-        let width = width_nm.max(NARROWEST);
-        let energy = Integral::new(&[], |nm| [white::d65(nm)]);
-        let shares = |[from, to]: [f64; 2]| {
-            let bins = ((from - first) / width) as u32..=((to - first) / width) as u32;
-            let share = |bin: u32| {
-                let [start, end] = [bin, bin + 1].map(|edge| (first + width * f64::from(edge)).min(last));
-                let [from, to] = [from.max(start), to.min(end)];
-                let power = energy.between(from, to)[0] / (end - start) * Self::COUNT as f64 / EFFICACY;
-                (from < to).then_some((bin, power as f32))
-            };
-            bins.filter_map(share).collect()
-        };
-        self.cells().map(|cell| cell.map(shares)).collect()
-    }
 }
 
 /// A spectrum's power at a wavelength in nm: linear between its points, zero beyond them.
-fn power(spectrum: &Spectrum, nm: f64) -> f64 {
-    let [wavelengths, power] = [&spectrum.wavelengths_nm, &spectrum.power];
+pub(crate) fn power(spectrum: &Spectrum, nm: f64) -> f64 {
+    linear(&spectrum.wavelengths_nm, &spectrum.power, nm)
+}
+
+/// A curve's value at a wavelength in nm: linear between its points, zero beyond them.
+pub(crate) fn linear(wavelengths: &[f64], power: &[f64], nm: f64) -> f64 {
     let above = wavelengths.partition_point(|point| *point < nm);
     if above == 0 || above == wavelengths.len() {
         return 0.0;

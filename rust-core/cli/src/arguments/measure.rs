@@ -15,6 +15,7 @@ pub(super) const MEASURE_EXAMPLES: &str = "Examples:
   gonio measure office.usda --grid /Office/Floor --height 0.75 --margin 0.5 -o plane.png --csv plane.csv
   gonio measure office.usda --at 2,3,1.2 --quantity cylindrical
   gonio measure office.usda --at 2,3,1.2 --quantity ugr --facing 1,0,0
+  gonio measure office.usda --at 2,3,0.75 --quantity ra --json
   gonio measure office.usda --grid /Office/Floor --quantity daylight-factor --sun 48.21,16.37,2025-03-21T12:00+01:00 --sky overcast";
 
 /// Calculation grids beside the stage's own.
@@ -53,7 +54,7 @@ pub(crate) struct MeasuringArguments {
     /// Where half cylinders, luminance meters and eyes at these points face; without it +Y where Z is up, -Z where Y is up.
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, requires = "at")]
     pub(crate) facing: Option<String>,
-    /// What these grids and points measure: illuminance, cylindrical, semicylindrical (lx), daylight-factor (%), luminance (cd/m²), melanopic-edi (lx at an eye that looks along --facing; lamps want spectra), ugr (the luminaires' glare at an eye there); without it as the grid's prim says, else illuminance.
+    /// What these grids and points measure: illuminance, cylindrical, semicylindrical (lx), daylight-factor (%), luminance (cd/m²), melanopic-edi (lx at an eye that looks along --facing; lamps want spectra), cct (K), duv, ra, rf, rg (colour of the light on the plane; the last three want lamps' spectra), ugr (the luminaires' glare at an eye there); without it as the grid's prim says, else illuminance.
     #[arg(long, value_name = "QUANTITY")]
     pub(crate) quantity: Option<String>,
     /// For machines.

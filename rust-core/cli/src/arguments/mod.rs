@@ -52,7 +52,7 @@ pub(super) use picture::{CompareOptions, RelightOptions};
 pub(super) use render::{FilterArgument, HeadlightArgument, RenderOptions};
 pub(super) use report::ReportOptions;
 pub(super) use road::RoadOptions;
-pub(super) use spectrum::SpectrumOptions;
+pub(super) use spectrum::{SensorOptions, SpectrumOptions};
 pub(super) use stage::{ComplexityArgument, StageArguments};
 pub(super) use texture::TextureArguments;
 pub(super) use verdict::VerdictOptions;
@@ -69,7 +69,7 @@ use map::MAP_EXAMPLES;
 use measure::MEASURE_EXAMPLES;
 use report::REPORT_EXAMPLES;
 use road::ROAD_EXAMPLES;
-use spectrum::SPECTRUM_EXAMPLES;
+use spectrum::{SENSOR_EXAMPLES, SPECTRUM_EXAMPLES};
 use verdict::VERDICT_EXAMPLES;
 use view::VIEW_EXAMPLES;
 
@@ -130,6 +130,12 @@ pub(super) enum Command {
     /// daylight by name. Several of them make a table. A figure that is undefined for a light, or outside its standard's range, says so.
     #[command(after_long_help = SPECTRUM_EXAMPLES)]
     Spectrum(SpectrumOptions),
+    /// See a picture by wavelength as a camera or another sensor does, by its response curves.
+    ///
+    /// Takes what 'gonio render --by-wavelength' writes and a table of the sensor's channels; writes an EXR file with a channel for each. 'gonio falsecolor' shows
+    /// such a picture's CCT, Duv and melanopic luminance.
+    #[command(after_long_help = SENSOR_EXAMPLES)]
+    Sensor(SensorOptions),
     /// Say what a measured material's file holds: angles, albedo, reciprocity, energy, problems; draw, convert and fit it. Measure a sample.
     ///
     /// Takes MERL .binary, RGL .bsdf, pBRDF .pbsdf, UTIA .bin, BSDF XML of Radiance and WINDOW, Zemax .bsdf and gonio's own .gbsdf; content

@@ -12,6 +12,12 @@ pub(crate) struct OutputArguments {
     /// A deep picture (.exr, OpenEXR's deepscanline) beside the others: of each pixel its surfaces one behind the other, for compositing by depth.
     #[arg(long, value_name = "FILE")]
     pub(crate) deep: Option<PathBuf>,
+    /// The picture by wavelength (.exr in the layout of Fichet and others, .hsr of Radiance): spectral radiance in bands from 380 to 780 nm, as many samples for each band as a picture has. Without -o nothing else is rendered.
+    #[arg(long = "by-wavelength", value_name = "FILE")]
+    pub(crate) by_wavelength: Option<PathBuf>,
+    /// Width of the bands of --by-wavelength in nm: 5, 10 or 20.
+    #[arg(long = "band", value_name = "NM", default_value_t = 5.0, requires = "by_wavelength")]
+    pub(crate) band: f64,
     /// Stops by which the displayed picture (PNG, JPEG) is brightened; EXR files keep their values.
     #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_hyphen_values = true)]
     pub(crate) exposure: f32,

@@ -19,6 +19,29 @@ Files:
   Lines of 'nm, power' in any unit of power, up from the shortest wavelength. Words before and after, and lines that begin with #, %, ! or //,
   are left out. A column beyond the second is left out and told. docs/spectral.md says what the figures mean.";
 
+/// Command lines to start from.
+pub(super) const SENSOR_EXAMPLES: &str = "Examples:
+  gonio render office.usda --by-wavelength office.exr --band 10
+  gonio sensor office.exr camera.csv -o photo.exr
+  gonio sensor office.exr camera.csv -o raw.exr --white none";
+
+#[derive(Args, Debug)]
+pub(crate) struct SensorOptions {
+    /// A picture by wavelength (gonio render --by-wavelength).
+    pub(crate) image: PathBuf,
+    /// The sensor's curves: lines of nm and the response of each channel, in any unit; a line of names may stand first, three columns without one are R, G and B.
+    pub(crate) response: PathBuf,
+    /// The picture to write, a channel for each curve.
+    #[arg(long, short = 'o', value_name = "FILE.exr")]
+    pub(crate) output: PathBuf,
+    /// The light that is white to the sensor: a file or a name as gonio spectrum has them. Of it each cd/m² is 1 in all channels. With 'none' channels are the sums of radiance, response and nm.
+    #[arg(long, value_name = "LAMP", default_value = "D65")]
+    pub(crate) white: Option<String>,
+    /// Write nothing but errors.
+    #[arg(long, short = 'q')]
+    pub(crate) quiet: bool,
+}
+
 #[derive(Args, Debug)]
 pub(crate) struct SpectrumOptions {
     /// The lamps: files of nanometres and power, IES TM-27 .spdx files, GLDF files with all of their spectra, or names such as FL11, D65, 2700K.

@@ -29,13 +29,9 @@ pub(super) fn write_grids(options: &ReportOptions, grids: &[GridReading], power:
     power.iter().for_each(|line| page.paragraph(line));
     for grid in grids {
         let unit = grid.measurand.unit();
-        let style = FalseColour {
-            scale: super::scale(options, options.max_illuminance, None, &grid.values())?,
-            unit: unit.into(),
-            contours: true,
-            smoothing: 0,
-            legend: true,
-        };
+        let max = options.max_illuminance.filter(|_| !grid.measurand.is_of_colour());
+        let style =
+            FalseColour { scale: grid.scale(max, options.steps, None)?, unit: unit.into(), contours: true, smoothing: 0, legend: true };
         let picture = falsecolor::encoded(&options.output, &value_picture(grid, &style))?;
         page.wide_picture("png", &picture, &format!("{}: {} {unit}", grid.origin, grid.measurand.name()));
     }
@@ -45,6 +41,7 @@ pub(super) fn write_grids(options: &ReportOptions, grids: &[GridReading], power:
 fn row(grid: &GridReading) -> Vec<String> {
     let (unit, summary) = (grid.measurand.unit(), &grid.summary);
     let [along, across] = grid.spacing;
+    let evenness = |ratio: f64| if grid.measurand.is_amount() { format!("{ratio:.2}") } else { "–".to_owned() };
     vec![
         grid.origin.to_string(),
         grid.measurand.name().into(),
@@ -53,8 +50,8 @@ fn row(grid: &GridReading) -> Vec<String> {
         with_error(&summary.average, unit),
         with_error(&summary.min, unit),
         with_error(&summary.max, unit),
-        format!("{:.2}", summary.uniformity()),
-        format!("{:.2}", summary.diversity()),
+        evenness(summary.uniformity()),
+        evenness(summary.diversity()),
     ]
 }
 
@@ -71,7 +68,7 @@ pub(super) fn write_meters(meters: &[MeterReading], page: &mut Page) {
     };
     page.table(&["meter", "quantity", "at, m", "value"], &meters.iter().map(row).collect::<Vec<_>>(), &[]);
     for found in meters {
-        if let Some(note) = found.rating_note() {
+        if let Some(note) = found.note() {
             page.note(&format!("{}: {note}.", found.meter.origin));
         }
     }

@@ -1,12 +1,25 @@
 //! What a spectrum says, for machines.
 
 use super::Lamp;
-use gonio_spectrum::{HueBin, OPSINS, TOLERANCE};
+use gonio_spectrum::{Figures, HueBin, OPSINS, TOLERANCE};
 use serde_json::{Map, Value, json};
 
 /// Everything in one object; what is undefined is null.
 pub(super) fn as_json(lamp: &Lamp) -> Value {
-    let figures = &lamp.figures;
+    let mut all = figures_json(&lamp.figures);
+    let of_data = [
+        ("source", json!(lamp.asked)),
+        ("name", json!(lamp.spectrum.name)),
+        ("points", json!(lamp.spectrum.power.len())),
+        ("first_nm", json!(lamp.spectrum.wavelengths_nm.first())),
+        ("last_nm", json!(lamp.spectrum.wavelengths_nm.last())),
+    ];
+    all.extend(of_data.map(|(name, value)| (name.to_owned(), value)));
+    Value::Object(all)
+}
+
+/// All figures of a spectrum; what is undefined is null.
+pub(in super::super) fn figures_json(figures: &Figures) -> Map<String, Value> {
     let white = figures.white.as_ref();
     let rendering = white.map(|white| &white.rendering);
     let tm30 = white.and_then(|white| white.rendition.as_ref());
@@ -14,32 +27,28 @@ pub(super) fn as_json(lamp: &Lamp) -> Value {
     let alpha_opic: Map<String, Value> = receptors
         .map(|((short, _), found)| ((*short).to_owned(), json!({ "elr_mw_per_lm": found.elr_mw_per_lm, "der": found.der })))
         .collect();
-    json!({
-        "source": lamp.asked,
-        "name": lamp.spectrum.name,
-        "points": lamp.spectrum.power.len(),
-        "first_nm": lamp.spectrum.wavelengths_nm.first(),
-        "last_nm": lamp.spectrum.wavelengths_nm.last(),
-        "peak_nm": figures.peak_nm,
-        "x": figures.xy[0],
-        "y": figures.xy[1],
-        "u_prime": figures.uv[0],
-        "v_prime": figures.uv[1],
-        "cct": white.map(|white| white.cct),
-        "duv": white.map(|white| white.duv),
-        "ra": rendering.map(|rendering| rendering.ra),
-        "r": rendering.map(|rendering| rendering.r),
-        "ra_in_range": rendering.map(|rendering| rendering.distance <= TOLERANCE),
-        "reference_distance": rendering.map(|rendering| rendering.distance),
-        "rf": tm30.map(|tm30| tm30.rf),
-        "rg": tm30.map(|tm30| tm30.rg),
-        "rf_samples": tm30.map(|tm30| &tm30.samples),
-        "hue_bins": tm30.map(|tm30| tm30.bins.iter().map(bin_json).collect::<Vec<_>>()),
-        "melanopic_der": figures.alpha_opic[4].der,
-        "alpha_opic": alpha_opic,
-        "ler": figures.ler,
-        "notes": figures.notes,
-    })
+    let all = [
+        ("peak_nm", json!(figures.peak_nm)),
+        ("x", json!(figures.xy[0])),
+        ("y", json!(figures.xy[1])),
+        ("u_prime", json!(figures.uv[0])),
+        ("v_prime", json!(figures.uv[1])),
+        ("cct", json!(white.map(|white| white.cct))),
+        ("duv", json!(white.map(|white| white.duv))),
+        ("ra", json!(rendering.map(|rendering| rendering.ra))),
+        ("r", json!(rendering.map(|rendering| rendering.r))),
+        ("ra_in_range", json!(rendering.map(|rendering| rendering.distance <= TOLERANCE))),
+        ("reference_distance", json!(rendering.map(|rendering| rendering.distance))),
+        ("rf", json!(tm30.map(|tm30| tm30.rf))),
+        ("rg", json!(tm30.map(|tm30| tm30.rg))),
+        ("rf_samples", json!(tm30.map(|tm30| &tm30.samples))),
+        ("hue_bins", json!(tm30.map(|tm30| tm30.bins.iter().map(bin_json).collect::<Vec<_>>()))),
+        ("melanopic_der", json!(figures.alpha_opic[4].der)),
+        ("alpha_opic", Value::Object(alpha_opic)),
+        ("ler", json!(figures.ler)),
+        ("notes", json!(figures.notes)),
+    ];
+    all.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
 }
 
 fn bin_json(bin: &HueBin) -> Value {

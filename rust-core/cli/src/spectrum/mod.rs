@@ -3,6 +3,8 @@
 mod json;
 mod text;
 
+pub(super) use json::figures_json;
+
 use super::{
     arguments::SpectrumOptions,
     drawing,
@@ -75,6 +77,13 @@ fn lamps(source: &Path) -> Result<Vec<Lamp>> {
         }
     };
     Ok(vec![lamp(asked, spectrum)])
+}
+
+/// The spectrum of one file or name.
+pub(super) fn one(source: &str) -> Result<Spectrum> {
+    let mut lamps = lamps(Path::new(source))?;
+    one_alone(lamps.len())?;
+    lamps.pop().map(|lamp| lamp.spectrum).ok_or_else(|| Error::setting(source, "no spectrum"))
 }
 
 fn lamp(asked: String, spectrum: Spectrum) -> Lamp {

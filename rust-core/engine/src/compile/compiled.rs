@@ -5,7 +5,7 @@ use super::{
     bounds::Bounds, casters::Casters, dice::KeptDiced, displace::KeptDisplaced, kept::KeptImages, lights::KeptLights,
     measured::CompiledMeasured,
 };
-use super::{primvars, smooth::KeptSmooth, trees::KeptTree};
+use super::{primvars, smooth::KeptSmooth, trees::KeptTree, wavelengths::LampSpectra};
 use crate::{
     error::Diagnostic,
     film::Besides,
@@ -35,6 +35,8 @@ pub struct CompiledScene {
     pub(crate) casters: Casters,
     /// Names of the primvars in the tables, whose columns follow that of the normals.
     pub(super) primvars: Vec<String>,
+    /// Spectra of its lamps.
+    pub(super) spectra: LampSpectra,
     /// What renders leave for the next.
     pub(crate) workspaces: Arc<Workspaces>,
     /// What it was made of.

@@ -2,6 +2,7 @@
 //!
 //! Meshes whose arrays did not change keep their trees; moving instances rebuilds the top level alone.
 
+mod bands;
 mod bodies;
 mod bounds;
 mod cancel;
@@ -60,6 +61,7 @@ use looks::Looks;
 use numbers::geometry_number;
 use shapes::Shapes;
 
+pub(crate) use bands::BandedScene;
 pub use bounds::Bounds;
 pub(crate) use casters::Casters;
 pub use compiled::{CompileStatistics, CompiledScene};
@@ -111,7 +113,9 @@ fn laid_out(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicBool
     report(scene, &looks.materials, &lights.table, &mut diagnostics);
     let casters = Casters::of(scene, &shapes.mesh_bounds, &looks.materials, shapes.origin);
     let (of_light, kept_lights) = (mem::take(&mut lights.of_light), mem::take(&mut lights.kept));
+    let spectra = mem::take(&mut lights.spectra);
     let mut tables = tables(scene, bvh, &mut looks, &mut shapes, lights);
+    tables.wavelengths = spectra.table(scene);
     lamps_in_media::find(scene, &mut tables, &of_light, &mut diagnostics);
     let mut compiled = CompiledScene {
         tables,
@@ -123,6 +127,7 @@ fn laid_out(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicBool
         besides: Besides::of(scene),
         casters,
         primvars: looks.names,
+        spectra,
         workspaces: previous.map(|p| p.workspaces.clone()).unwrap_or_default(),
         kept: Kept {
             trees: shapes.trees,
@@ -208,7 +213,7 @@ fn tables(scene: &Scene, bvh: Tlas, looks: &mut Looks, shapes: &mut Shapes, ligh
         any_absorbing,
         bodies,
         emission_in_media: Vec::new(),
-        wavelengths: lights.spectra.table(scene),
+        wavelengths: None,
         origin,
         geometry,
         materials,

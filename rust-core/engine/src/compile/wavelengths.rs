@@ -7,7 +7,7 @@ use crate::{
     scene::{LampSpectrum, Light, Observer, Scene},
 };
 use gonio_simd::{Column, WavelengthTable};
-use gonio_spectrum::{Spectrum, Triples, triples, upsampling};
+use gonio_spectrum::{Bands, Spectrum, Triples, triples, upsampling};
 use std::sync::{Arc, OnceLock};
 
 /// Spectra of a scene's lamps, each once.
@@ -22,6 +22,7 @@ pub(super) struct LampSpectra {
 #[derive(Clone, Debug)]
 struct Lamp {
     source: Arc<LampSpectrum>,
+    spectrum: Spectrum,
     /// By rotation: over D65's, of unit luminance.
     values: Vec<[f32; 3]>,
     /// Linear Rec.709 of that.
@@ -31,7 +32,7 @@ struct Lamp {
 impl Lamp {
     fn new(source: &Arc<LampSpectrum>, spectrum: &Spectrum) -> Self {
         let values = triples().tabulate(spectrum);
-        Self { source: source.clone(), colour: colour(&values), values }
+        Self { source: source.clone(), spectrum: spectrum.clone(), colour: colour(&values), values }
     }
 }
 
@@ -87,19 +88,46 @@ impl LampSpectra {
         if !scene.settings.spectral {
             return None;
         }
-        static PLAIN: OnceLock<Arc<WavelengthTable>> = OnceLock::new();
-        let plain = PLAIN.get_or_init(|| Arc::new(plain()));
+        let plain = without_lamps();
         if self.spectra.is_empty() && scene.settings.observer.is_luminous() {
             return Some(plain.clone());
         }
         let lamps: Vec<f32> = self.spectra.iter().flat_map(|lamp| &lamp.values).copied().flat_map(quad).collect();
-        let lamp_colours: Vec<f32> = self.spectra.iter().flat_map(|lamp| quad(lamp.colour)).collect();
-        let mut table = WavelengthTable { lamps: column(&lamps), lamp_colours: column(&lamp_colours), ..(**plain).clone() };
+        let mut table = WavelengthTable { lamps: column(&lamps), lamp_colours: self.colours(), ..(**plain).clone() };
         if scene.settings.observer == Observer::Melanopic {
             let grey = |value: f32| quad([value; 3]);
             table.film = column(&triples().melanopic().into_iter().flatten().flat_map(grey).collect::<Vec<f32>>());
         }
         Some(Arc::new(table))
+    }
+
+    /// The table of a single wavelength, in the middle of a band. All three components stand there, and each brings a third of what is seen: the
+    /// light of the band as a grey, relative to D65's. `lamps` is [`Self::by_band`].
+    pub(super) fn table_of_band(&self, bands: &Bands, band: usize, lamps: &[Vec<f32>]) -> WavelengthTable {
+        let place = ((bands.centre(band) - 380.0) / 400.0) as f32;
+        let lamps: Vec<f32> = lamps.iter().flat_map(|lamp| quad([lamp[band]; 3])).collect();
+        WavelengthTable {
+            rotations: 1,
+            places: column(&quad([place; 3])),
+            film: column(&[quad([1.0 / 3.0; 3]); 3].concat()),
+            lamps: column(&lamps),
+            lamp_colours: self.colours(),
+            ..(**without_lamps()).clone()
+        }
+    }
+
+    /// How many there are.
+    pub(super) fn count(&self) -> usize {
+        self.spectra.len()
+    }
+
+    /// By lamp, its spectrum in each band relative to D65's.
+    pub(super) fn by_band(&self, bands: &Bands) -> Vec<Vec<f32>> {
+        self.spectra.iter().map(|lamp| bands.tabulate(&lamp.spectrum)).collect()
+    }
+
+    fn colours(&self) -> Column {
+        column(&self.spectra.iter().flat_map(|lamp| quad(lamp.colour)).collect::<Vec<f32>>())
     }
 }
 
@@ -114,7 +142,12 @@ fn colour(values: &[[f32; 3]]) -> [f32; 3] {
     sum.map(|sum| (sum / Triples::COUNT as f64) as f32)
 }
 
-/// The table without lamps.
+/// The table without lamps, made at first use.
+fn without_lamps() -> &'static Arc<WavelengthTable> {
+    static PLAIN: OnceLock<Arc<WavelengthTable>> = OnceLock::new();
+    PLAIN.get_or_init(|| Arc::new(plain()))
+}
+
 fn plain() -> WavelengthTable {
     let (triples, upsampling) = (triples(), upsampling());
     let place = |(number, triple): (usize, [f32; 3])| {

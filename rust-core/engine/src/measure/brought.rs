@@ -14,8 +14,6 @@ use std::time::Instant;
 
 /// Numbers of batches that neither splats nor photons use.
 const FIRST_BATCH: u64 = 1 << 62;
-/// Batches before the errors are looked at for the first time.
-const FIRST_LOOK: u64 = 64;
 /// Relative standard error that is good enough, and the part of the error that a meter has from its own paths.
 const ENOUGH: f64 = 0.005;
 const OF_OWN: f64 = 0.5;
@@ -35,7 +33,7 @@ pub(super) fn brought(
     paths: &Brought<'_>,
     watch: &mut Watch<'_>,
 ) -> Result<Vec<Reading>> {
-    let Sensing { settings, execution, .. } = *sensing;
+    let Sensing { settings, execution, effort, .. } = *sensing;
     let scene: &CompiledScene = sensing.scene;
     let Brought { sampler, whole } = *paths;
     if discs.is_empty() {
@@ -45,13 +43,13 @@ pub(super) fn brought(
     let transport = transport(scene, settings, execution, [0.0; 3], [0.0, 0.0, -1.0]);
     let wanted = Wanted { arrivals: Arriving::No, specular_only: !whole, picture: None };
     let tracer = LightTracer { tables: &scene.tables, transport: &transport, emission: Emission::Lights(sampler), wanted };
-    let most = u64::from(settings.samples).max(FIRST_LOOK);
+    let most = effort.most_batches(settings.samples);
     let power = sampler.total_power();
     let crossings = Crossings { discs, fluxes: BatchEstimates::new(own.len(), power, most * LIGHT_BATCH as u64) };
     let job = Job { scene, tracer: &tracer, threads: settings.threads, deadline: None };
     let mut done = 0;
     loop {
-        let end = next_round(done, FIRST_LOOK, most);
+        let end = next_round(done, effort.first_look, most);
         let mut progress = |traced: u64| {
             let fraction = (done + traced) as f64 / most as f64;
             let samples_total = settings.samples;

@@ -38,7 +38,9 @@ pub(super) fn with_missed(
             missed += 1;
             return whole;
         }
-        *reading
+        // Paths that have met no lamp at all know of no error.
+        let unmet = reading.standard_error <= 0.0 && disc.radius > 0.0;
+        Reading { standard_error: if unmet { whole.standard_error } else { reading.standard_error }, ..*reading }
     });
     let found = found.collect();
     Ok((found, missed))

@@ -8,7 +8,6 @@ mod disc;
 mod discs;
 mod eye;
 pub mod glare;
-mod melanopic;
 mod missed;
 mod outline;
 mod picture;
@@ -17,6 +16,7 @@ mod reading;
 mod room;
 mod sense;
 mod sensing;
+mod spectral;
 mod ugr;
 mod vector;
 mod watch;
@@ -30,6 +30,7 @@ pub use picture::value_picture;
 pub use points::{GridPoints, MOST_POINTS};
 pub use reading::{GridReading, MeterReading, Reading, SmallSources, Summary};
 pub use room::Room;
+pub use spectral::ColourReading;
 pub use watch::{MOST_BOUNCES, Watch};
 
 use crate::{
@@ -42,6 +43,7 @@ use glare::Coverage;
 use gonio_simd::Execution;
 use reading::Found;
 use sense::Probe;
+use sensing::Effort;
 use std::sync::Arc;
 
 /// What all meters and grids of a scene show.
@@ -88,13 +90,7 @@ pub fn measure(scene: &Scene, execution: Execution, watch: &mut Watch<'_>) -> Re
     let readings = read(scene, (&meters, &reaches), execution, watch, &mut diagnostics)?;
     tell_unknown(&meters, &readings, &mut diagnostics);
     let (single, mut rest) = readings.split_at(scene.meters.len());
-    let of_meter = |(meter, (reading, rated)): (&Meter, &Found)| MeterReading {
-        meter: meter.clone(),
-        reading: *reading,
-        coverage: rated.map(|(coverage, _)| coverage),
-        small: rated.map(|(_, small)| small),
-    };
-    let meters = scene.meters.iter().zip(single).map(of_meter).collect();
+    let meters = scene.meters.iter().zip(single).map(|(meter, found)| MeterReading::new(meter, found)).collect();
     let mut of_grid = |(grid, points): (&crate::scene::Grid, GridPoints)| {
         let (own, others) = rest.split_at(points.known().count());
         rest = others;
@@ -104,7 +100,7 @@ pub fn measure(scene: &Scene, execution: Execution, watch: &mut Watch<'_>) -> Re
     Ok(Measurements { meters, grids, diagnostics })
 }
 
-/// Readings of all meters: those under all lights in one go, daylight factors and glare in others.
+/// Readings of all meters: those under all lights in one go, by wavelengths, daylight factors and glare in others.
 fn read(
     scene: &Scene,
     (meters, reaches): (&[Meter], &[f64]),
@@ -113,36 +109,30 @@ fn read(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<Vec<Found>> {
     let mut readings = vec![Found::default(); meters.len()];
-    let of = |measurand: Measurand| (0..meters.len()).filter(move |i| meters[*i].measurand == measurand);
-    let (daylit, rated): (Vec<usize>, Vec<usize>) = (of(Measurand::DaylightFactor).collect(), of(Measurand::Ugr).collect());
-    let is_lit = |i: &usize| !matches!(meters[*i].measurand, Measurand::DaylightFactor | Measurand::Ugr | Measurand::MelanopicEdi);
-    let melanopic: Vec<usize> = of(Measurand::MelanopicEdi).collect();
-    let lit: Vec<usize> = (0..meters.len()).filter(is_lit).collect();
+    let of = |wanted: &dyn Fn(Measurand) -> bool| (0..meters.len()).filter(|i| wanted(meters[*i].measurand)).collect::<Vec<usize>>();
+    let [daylit, rated, melanopic] =
+        [Measurand::DaylightFactor, Measurand::Ugr, Measurand::MelanopicEdi].map(|measurand| of(&|found| found == measurand));
+    let coloured = of(&Measurand::is_of_colour);
+    let is_apart = |measurand| matches!(measurand, Measurand::DaylightFactor | Measurand::Ugr | Measurand::MelanopicEdi);
+    let lit = of(&|measurand| !is_apart(measurand) && !measurand.is_of_colour());
     let probe = |i: &usize| Probe::new(&meters[*i]).map(|probe| probe.within(reaches[*i]));
     let chosen = |numbers: &[usize]| numbers.iter().map(probe).collect::<Result<Vec<_>>>();
-    let (daylit_probes, lit_probes, melanopic_probes) = (chosen(&daylit)?, chosen(&lit)?, chosen(&melanopic)?);
+    let [daylit_probes, lit_probes, melanopic_probes, coloured_probes] =
+        [chosen(&daylit)?, chosen(&lit)?, chosen(&melanopic)?, chosen(&coloured)?];
     let mut sense = |scene: &Scene, probes: &[Probe], diagnostics: &mut Vec<Diagnostic>| {
         let compiled = Arc::new(compile(scene, watch.previous, watch.cancel)?);
         diagnostics.extend(compiled.diagnostics.iter().cloned());
-        let sensed = sense::sense(&compiled, probes, &scene.settings, execution, watch)?;
-        if let (Some(radii), Some(first)) = (sensed.discs, meters.first()) {
-            diagnostics.push(Diagnostic::info(&first.origin, on_discs(radii)));
-        }
-        if let (true, Some(first)) = (sensed.in_part, meters.first()) {
-            diagnostics.push(Diagnostic::warning(&first.origin, IN_PART));
-        }
-        if let (1.., Some(first)) = (sensed.missed, meters.first()) {
-            diagnostics.push(Diagnostic::info(&first.origin, behind_rough_glass(sensed.missed)));
-        }
+        let sensed = sense::sense(&compiled, (probes, Effort::WHOLE), &scene.settings, execution, watch)?;
+        tell_around(&sensed, meters, diagnostics);
         Ok::<_, Error>(sensed.readings)
     };
     if !lit.is_empty() {
         let values = sense(scene, &lit_probes, diagnostics)?;
-        lit.iter().zip(values).for_each(|(i, reading)| readings[*i].0 = reading);
+        lit.iter().zip(values).for_each(|(i, reading)| readings[*i] = reading.into());
     }
     if let Some(first) = melanopic.first() {
-        let values = sense(&melanopic::seen(scene, &meters[*first].origin, diagnostics)?, &melanopic_probes, diagnostics)?;
-        melanopic.iter().zip(values).for_each(|(i, reading)| readings[*i].0 = reading);
+        let values = sense(&spectral::melanopic::seen(scene, &meters[*first].origin, diagnostics)?, &melanopic_probes, diagnostics)?;
+        melanopic.iter().zip(values).for_each(|(i, reading)| readings[*i] = reading.into());
     }
     if let Some(first) = daylit.first() {
         let sky = under_domes(scene, &meters[*first].origin)?;
@@ -152,14 +142,34 @@ fn read(
             return Err(Error::scene(&meters[*first].origin, "a daylight factor wants a sky that shines; the scene's domes are dark"));
         }
         let values = sense(&sky, &daylit_probes, diagnostics)?;
-        daylit.iter().zip(values).for_each(|(i, reading)| readings[*i].0 = reading.percent_of(&outside));
+        daylit.iter().zip(values).for_each(|(i, reading)| readings[*i] = reading.percent_of(&outside).into());
     }
+    let these = |numbers: &[usize]| numbers.iter().map(|i| &meters[*i]).collect::<Vec<&Meter>>();
     if !rated.is_empty() {
-        let observers: Vec<&Meter> = rated.iter().map(|i| &meters[*i]).collect();
-        let values = ugr::ratings(scene, &observers, execution, watch, diagnostics)?;
-        rated.iter().zip(values).for_each(|(i, (reading, coverage, small))| readings[*i] = (reading, Some((coverage, small))));
+        let values = ugr::ratings(scene, &these(&rated), execution, watch, diagnostics)?;
+        let found = |(reading, coverage, small)| Found { rated: Some((coverage, small)), ..Found::from(reading) };
+        rated.iter().zip(values).for_each(|(i, rating)| readings[*i] = found(rating));
+    }
+    if !coloured.is_empty() {
+        let found = spectral::colour::colours(scene, (&these(&coloured), &coloured_probes), execution, watch, diagnostics)?;
+        tell_around(&found.first, meters, diagnostics);
+        coloured.iter().zip(found.readings).for_each(|(i, colour)| readings[*i] = Found::of_colour(meters[*i].measurand, colour));
     }
     Ok(readings)
+}
+
+/// Tells what stands around readings.
+fn tell_around(sensed: &sense::Sensed, meters: &[Meter], diagnostics: &mut Vec<Diagnostic>) {
+    let Some(Meter { origin, .. }) = meters.first() else { return };
+    if let Some(radii) = sensed.discs {
+        diagnostics.push(Diagnostic::info(origin, on_discs(radii)));
+    }
+    if sensed.in_part {
+        diagnostics.push(Diagnostic::warning(origin, IN_PART));
+    }
+    if sensed.missed > 0 {
+        diagnostics.push(Diagnostic::info(origin, behind_rough_glass(sensed.missed)));
+    }
 }
 
 /// Said where settings leave out what meters exist to find.
@@ -184,17 +194,18 @@ fn behind_rough_glass(missed: usize) -> String {
 
 /// Says at which meters and grids there is no figure.
 fn tell_unknown(meters: &[Meter], readings: &[Found], diagnostics: &mut Vec<Diagnostic>) {
-    let unknown = |(meter, (reading, _)): (_, &Found)| (!reading.is_known()).then_some(meter);
     let mut told: Vec<&Meter> = Vec::new();
-    for meter in meters.iter().zip(readings).filter_map(unknown) {
-        if told.iter().all(|other| other.origin != meter.origin) {
-            told.push(meter);
-            let [x, y, z] = meter.position;
-            let message = format!(
-                "no figure at {x:.4}, {y:.4}, {z:.4} m: light comes by mirrors or clear glass, and is counted on a disc about the meter, for which a surface \
-                 leaves no room; move it off"
-            );
-            diagnostics.push(Diagnostic::warning(&meter.origin, message));
+    for (meter, found) in meters.iter().zip(readings).filter(|(_, found)| !found.reading.is_known()) {
+        if told.iter().any(|other| other.origin == meter.origin && other.measurand == meter.measurand) {
+            continue;
         }
+        told.push(meter);
+        let [x, y, z] = meter.position;
+        let problem = match &found.colour {
+            Some(colour) => colour.why_undefined(),
+            None => "light comes by mirrors or clear glass, and is counted on a disc about the meter, for which a surface leaves no room; move it off"
+                .to_owned(),
+        };
+        diagnostics.push(Diagnostic::warning(&meter.origin, format!("no figure at {x:.4}, {y:.4}, {z:.4} m: {problem}")));
     }
 }

@@ -1,7 +1,10 @@
 //! A grid as a picture: false colour between the points, isolines, and the values where they were measured.
 
 use super::GridReading;
-use crate::output::{Canvas, FalseColour};
+use crate::{
+    error::Result,
+    output::{Canvas, FalseColour, FalseColourScale},
+};
 use gonio_formats::short_number;
 
 /// Pixels of the picture's longer side, about.
@@ -10,6 +13,20 @@ const SIDE: usize = 960;
 const CELL: [usize; 2] = [4, 96];
 const INK: [u8; 4] = [0, 0, 0, 255];
 const PAPER: [u8; 4] = [255, 255, 255, 160];
+
+impl GridReading {
+    /// The scale of the grid's picture: `steps` up to `max`, a round number without it, even or over `decades`; of figures of colour, whose 0 means
+    /// nothing, from the least value to the greatest where no `max` is asked for.
+    ///
+    /// # Errors
+    /// As [`FalseColourScale::new`].
+    pub fn scale(&self, max: Option<f32>, steps: u32, decades: Option<f32>) -> Result<FalseColourScale> {
+        let values = self.values();
+        let round = || FalseColourScale::round_max(&values);
+        let scale = FalseColourScale::new(max.unwrap_or_else(round), steps, decades)?;
+        Ok(if self.measurand.is_of_colour() && max.is_none() { FalseColourScale::around(&values, steps) } else { scale })
+    }
+}
 
 /// The grid seen against its normal: rows run to the right, the first row lies at the bottom. Values stand at their points where there is room.
 pub fn value_picture(grid: &GridReading, style: &FalseColour) -> Canvas {

@@ -1,7 +1,8 @@
 //! What meters and grids show.
 
-use super::{glare::Coverage, points::GridPoints, vector::Vector};
+use super::{glare::Coverage, points::GridPoints, spectral::ColourReading, vector::Vector};
 use crate::scene::{Grid, Measurand, Meter, Origin};
+use std::sync::Arc;
 
 /// A value with its standard error, in the measurand's unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -64,8 +65,28 @@ impl SmallSources {
     }
 }
 
-/// A reading, and of a glare rating what it leaves out and its small sources.
-pub(super) type Found = (Reading, Option<(Coverage, SmallSources)>);
+/// A reading with what it is made of.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Found {
+    pub(super) reading: Reading,
+    /// Of a glare rating.
+    pub(super) rated: Option<(Coverage, SmallSources)>,
+    /// Of a figure of colour.
+    pub(super) colour: Option<Arc<ColourReading>>,
+}
+
+impl Found {
+    pub(super) fn of_colour(measurand: Measurand, colour: Arc<ColourReading>) -> Self {
+        let undefined = Reading { value: f64::NAN, standard_error: f64::NAN };
+        Self { colour: Some(colour.clone()), ..colour.of(measurand).unwrap_or(undefined).into() }
+    }
+}
+
+impl From<Reading> for Found {
+    fn from(reading: Reading) -> Self {
+        Self { reading, ..Self::default() }
+    }
+}
 
 /// What a meter shows.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,12 +99,25 @@ pub struct MeterReading {
     pub coverage: Option<Coverage>,
     /// Sources that a glare rating takes as small, and what tables would say; none of other quantities.
     pub small: Option<SmallSources>,
+    /// The spectrum that a figure of colour is of, and the other figures; none of other quantities.
+    pub colour: Option<Arc<ColourReading>>,
 }
 
 impl MeterReading {
-    /// What a glare rating is made of, in words; none where there is nothing to be said.
-    pub fn rating_note(&self) -> Option<String> {
-        let notes = [self.small.and_then(|small| small.note()), self.coverage.and_then(|coverage| coverage.note())];
+    pub(super) fn new(meter: &Meter, found: &Found) -> Self {
+        Self {
+            meter: meter.clone(),
+            reading: found.reading,
+            coverage: found.rated.map(|(coverage, _)| coverage),
+            small: found.rated.map(|(_, small)| small),
+            colour: found.colour.clone(),
+        }
+    }
+
+    /// What a rating or a figure is made of, in words; none where there is nothing to be said.
+    pub fn note(&self) -> Option<String> {
+        let colour = self.colour.as_ref().map(|colour| colour.note());
+        let notes = [colour, self.small.and_then(|small| small.note()), self.coverage.and_then(|coverage| coverage.note())];
         let notes: Vec<String> = notes.into_iter().flatten().collect();
         (!notes.is_empty()).then(|| notes.join("; "))
     }
@@ -158,11 +192,13 @@ pub struct GridReading {
     pub coverage: Vec<Coverage>,
     /// Sources that the glare ratings take as small, and what tables would say, in the same order.
     pub small: Vec<SmallSources>,
+    /// The spectra that figures of colour are of, in the same order; empty of other quantities.
+    pub colours: Vec<Arc<ColourReading>>,
 }
 
 impl GridReading {
     pub(super) fn new(grid: &Grid, points: GridPoints, found: &[Found]) -> Self {
-        let readings = || found.iter().map(|(reading, _)| *reading);
+        let readings = || found.iter().map(|found| found.reading);
         let mut next = readings();
         let placed = points.positions.iter().map(|position| position.and_then(|position| Some((position, next.next()?)))).collect();
         Self {
@@ -174,8 +210,9 @@ impl GridReading {
             area: points.area,
             points: placed,
             summary: Summary::new(readings()),
-            coverage: found.iter().filter_map(|(_, rated)| rated.map(|(coverage, _)| coverage)).collect(),
-            small: found.iter().filter_map(|(_, rated)| rated.map(|(_, small)| small)).collect(),
+            coverage: found.iter().filter_map(|found| found.rated.map(|(coverage, _)| coverage)).collect(),
+            small: found.iter().filter_map(|found| found.rated.map(|(_, small)| small)).collect(),
+            colours: found.iter().filter_map(|found| found.colour.clone()).collect(),
         }
     }
 

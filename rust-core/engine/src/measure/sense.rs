@@ -6,7 +6,7 @@ use super::{
     discs::Discs,
     missed::with_missed,
     reading::Reading,
-    sensing::{ROUNDS, Sensing, unlimited},
+    sensing::{Effort, Sensing, unlimited},
     vector::{across, add, cross, length, scaled, subtract, unit},
     watch::Watch,
 };
@@ -41,6 +41,12 @@ pub(super) struct Probe {
 }
 
 impl Probe {
+    /// Where it is and which way it looks, to tell equal ones.
+    pub(super) fn bits(&self) -> [u64; 6] {
+        let ([x, y, z], [a, b, c]) = (self.position, self.normal);
+        [x, y, z, a, b, c].map(f64::to_bits)
+    }
+
     /// What stands for no more than `reach` metres about it.
     pub(super) fn within(self, reach: f64) -> Self {
         Self { reach, ..self }
@@ -56,7 +62,13 @@ impl Probe {
         let reach = f64::INFINITY;
         let plane = |normal, looks| Self { position, normal, side: across(normal, [1.0, 0.0, 0.0]), turn: 0.0, up: [0.0; 3], looks, reach };
         Ok(match meter.measurand {
-            Measurand::Illuminance | Measurand::DaylightFactor => plane(direction("normal", meter.normal)?, false),
+            Measurand::Illuminance
+            | Measurand::DaylightFactor
+            | Measurand::Cct
+            | Measurand::Duv
+            | Measurand::Ra
+            | Measurand::Rf
+            | Measurand::Rg => plane(direction("normal", meter.normal)?, false),
             Measurand::Luminance => plane(direction("facing", meter.facing)?, true),
             // What comes to the eye; glare is rated by it.
             Measurand::Ugr | Measurand::MelanopicEdi => plane(direction("facing", meter.facing)?, false),
@@ -129,7 +141,7 @@ fn radius(scene: &CompiledScene) -> f64 {
 /// Measures at all probes; `settings.samples` a point, rounded up to what a block of pixels has room for.
 pub(super) fn sense(
     scene: &Arc<CompiledScene>,
-    probes: &[Probe],
+    (probes, effort): (&[Probe], Effort),
     settings: &Settings,
     execution: Execution,
     watch: &mut Watch<'_>,
@@ -137,7 +149,7 @@ pub(super) fn sense(
     let (sensors, places) = placed(scene, probes);
     let radius = radius(scene);
     let settings = unlimited(settings);
-    let sensing = Sensing { scene, sensors: &sensors, settings: &settings, execution };
+    let sensing = Sensing { scene, sensors: &sensors, settings: &settings, execution, effort };
     // Meters may stand far off the scene: from there its lamps are small.
     let middle = scene.bounds.centre();
     let reach = places.iter().map(|place| length(subtract(*place, middle))).filter(|reach| reach.is_finite()).fold(radius, f64::max);
@@ -173,9 +185,10 @@ fn with_light_paths(
         let fraction = (1.0 - LIGHT_PATHS) * all;
         (watch.progress)(&Progress { fraction, ..*of_part })
     };
-    let mut values = vec![Vec::with_capacity(ROUNDS as usize); sensing.sensors.len()];
-    for round in 0..ROUNDS {
-        let done = |within: f64| (f64::from(round) + within) / f64::from(ROUNDS);
+    let rounds = sensing.effort.rounds;
+    let mut values = vec![Vec::with_capacity(rounds as usize); sensing.sensors.len()];
+    for round in 0..rounds {
+        let done = |within: f64| (f64::from(round) + within) / f64::from(rounds);
         let found = sensing.round(light_paths.clone(), round, &mut |of_round| progress(done(of_round.fraction), of_round))?;
         values.iter_mut().zip(found).for_each(|(values, value)| values.push(value));
     }

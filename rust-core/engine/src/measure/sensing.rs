@@ -14,8 +14,6 @@ use std::{sync::Arc, time::Duration};
 
 /// How often progress is told.
 const TELL_EVERY: Duration = Duration::from_millis(50);
-/// Rounds of samples that are independent of each other, where light paths bring light: photons of a round are shared by all its samples.
-pub(super) const ROUNDS: u32 = 16;
 /// Makes seeds of rounds that are far apart.
 const OTHER_SEED: u32 = 0x9e37_79b9;
 /// Parts of a block along its side; each is a net of the sampler's sequence itself.
@@ -54,12 +52,40 @@ pub(super) struct Sensing<'a> {
     pub(super) sensors: &'a [Sensor],
     pub(super) settings: &'a Settings,
     pub(super) execution: Execution,
+    pub(super) effort: Effort,
+}
+
+/// How much is done beside taking samples.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Effort {
+    /// The most pixels that the samples of a sensor are spread over.
+    most_pixels: usize,
+    /// Rounds of samples that are independent of each other, where light paths bring light: photons of a round are shared by all its samples.
+    pub(super) rounds: u32,
+    /// Batches of light paths to meters before their errors are looked at for the first time, and whether there may be more.
+    pub(super) first_look: u64,
+    goes_on: bool,
+}
+
+impl Effort {
+    /// For a measurement that tells its own error.
+    pub(super) const WHOLE: Self = Self { most_pixels: usize::MAX, rounds: 16, first_look: 64, goes_on: true };
+
+    /// The most batches of light paths of a measurement of so many samples.
+    pub(super) fn most_batches(&self, samples: u32) -> u64 {
+        if self.goes_on { u64::from(samples).max(self.first_look) } else { self.first_look }
+    }
+
+    /// For one of many that do so together, of so many samples.
+    pub(super) fn of_part(samples: u32) -> Self {
+        Self { most_pixels: samples as usize, rounds: 1, first_look: 8, goes_on: false }
+    }
 }
 
 impl Sensing<'_> {
     /// What the sensors' own paths find, all samples together.
     pub(super) fn readings(&self, progress: &mut dyn FnMut(&Progress) -> bool) -> Result<Vec<Reading>> {
-        let (image, blocks) = self.trace(self.settings.samples, usize::MAX, None, 0, progress)?;
+        let (image, blocks) = self.trace(self.settings.samples, self.effort.most_pixels, None, 0, progress)?;
         Ok(blocks.iter().map(|block| Reading::of_parts(block.parts(&image))).collect())
     }
 
@@ -70,7 +96,7 @@ impl Sensing<'_> {
         round: u32,
         progress: &mut dyn FnMut(&Progress) -> bool,
     ) -> Result<Vec<f64>> {
-        let samples = self.settings.samples.div_ceil(ROUNDS);
+        let samples = self.settings.samples.div_ceil(self.effort.rounds);
         let (image, blocks) = self.trace(samples, samples as usize, Some(light_paths), round, progress)?;
         Ok(blocks.iter().map(|block| block.parts(&image).sum::<f64>() / (PARTS * PARTS) as f64).collect())
     }

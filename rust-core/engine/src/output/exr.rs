@@ -31,10 +31,22 @@ pub struct ExrOptions {
     pub attributes: Vec<(String, String)>,
 }
 
+/// Channels by name, 32-bit floats a pixel, rows from the top.
+pub type Further = Vec<(String, Vec<f32>)>;
+
 /// Writes all passes of an image; absolute ones always as 32-bit floats.
 pub fn write_exr(path: &Path, image: &Image, options: &ExrOptions) -> Result<()> {
+    write_exr_with(path, image, &Further::new(), options)
+}
+
+/// The same with further channels beside the passes.
+pub fn write_exr_with(path: &Path, image: &Image, further: &Further, options: &ExrOptions) -> Result<()> {
     write_atomically(path, !options.hasty, |file| {
-        let written = picture(&in_gamut(image, options.gamut), options).write().to_buffered(file);
+        let mut out = picture(&in_gamut(image, options.gamut), options);
+        let mut channels = std::mem::take(&mut out.layer_data.channel_data.list);
+        channels.extend(further.iter().map(|(name, values)| AnyChannel::new(Text::from(name.as_str()), FlatSamples::F32(values.clone()))));
+        out.layer_data.channel_data = AnyChannels::sort(channels);
+        let written = out.write().to_buffered(file);
         written.map_err(|error| match error {
             exr::error::Error::Io(error) => error,
             other => std::io::Error::other(other.to_string()),
@@ -214,6 +226,17 @@ fn attributes(path: &Path) -> Result<LayerAttributes> {
     open_file(path).map_err(|error| Error::io(path, error))?;
     let meta = exr::meta::MetaData::read_from_file(path, false).map_err(failed)?;
     Ok(meta.headers.into_iter().next().map(|header| header.own_attributes).unwrap_or_default())
+}
+
+/// Whether a file says that its colours have other primaries than Rec.709's.
+pub fn has_other_primaries(path: &Path) -> Result<bool> {
+    let failed = |error: exr::error::Error| Error::Format { path: path.to_owned(), line: None, problem: error.to_string() };
+    open_file(path).map_err(|error| Error::io(path, error))?;
+    let meta = exr::meta::MetaData::read_from_file(path, false).map_err(failed)?;
+    let stated = meta.headers.first().and_then(|header| header.shared_attributes.chromaticities);
+    let near = |found: Vec2<f32>, [x, y]: [f32; 2]| (found.0 - x).abs() < 1e-3 && (found.1 - y).abs() < 1e-3;
+    let is_rec709 = |c: Chromaticities| near(c.red, [0.64, 0.33]) && near(c.green, [0.3, 0.6]) && near(c.blue, [0.15, 0.06]);
+    Ok(stated.is_some_and(|stated| !is_rec709(stated)))
 }
 
 /// How a file's picture was taken, as [`write_exr`] notes it; none where nothing is noted.

@@ -26,6 +26,7 @@ from ._gonio import (
     SampleReading,
     SceneError,
     SettingError,
+    SpectralPicture,
     SurfaceMap,
     Tile,
     UnsupportedError,
@@ -50,6 +51,7 @@ from ._gonio import (
     simd_level,
     sky_formula,
     sky_table,
+    spectral_picture,
     spectrum_figures,
     ugr_table,
 )
@@ -85,6 +87,7 @@ __all__ = [
     "Scene",
     "SceneError",
     "SettingError",
+    "SpectralPicture",
     "SurfaceMap",
     "Texture",
     "Tile",
@@ -112,6 +115,7 @@ __all__ = [
     "simd_level",
     "sky_formula",
     "sky_table",
+    "spectral_picture",
     "spectrum_figures",
     "ugr_table",
 ]

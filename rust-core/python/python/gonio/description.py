@@ -22,6 +22,11 @@ MEASURANDS = {
     "daylight-factor": "DaylightFactor",
     "luminance": "Luminance",
     "melanopic-edi": "MelanopicEdi",
+    "cct": "Cct",
+    "duv": "Duv",
+    "ra": "Ra",
+    "rf": "Rf",
+    "rg": "Rg",
     "ugr": "Ugr",
 }
 

@@ -225,8 +225,8 @@ class Scene(_gonio.Scene):
     ) -> int:
         """Adds a meter at a point in metres; gives its number. quantity: illuminance (of the plane across `normal`), cylindrical or
         semicylindrical (`normal` is the axis), daylight-factor, luminance (towards `facing`), melanopic-edi (of an eye
-        that looks along `facing`; lamps want spectra), or ugr (of the luminaires, along `facing`,
-        upright along `normal`).
+        that looks along `facing`; lamps want spectra), cct, duv, ra, rf or rg (colour of the light that the plane across
+        `normal` gets; the last three want spectra), or ugr (of the luminaires, along `facing`, upright along `normal`).
         """
         vectors = {"position": position, "normal": normal, "facing": facing}
         placed = {key: numbers(key, vector, 3) for key, vector in vectors.items()}

@@ -1,3 +1,4 @@
+use crate::cct_of_colour;
 use crate::{Figures, OPSINS, Spectrum, figures, named};
 
 fn of(name: &str) -> Figures {
@@ -188,4 +189,18 @@ fn drawings_are_documents() {
         assert!(!svg.contains("NaN"), "{name}");
         assert!(document.descendants().any(|node| node.text() == Some("<lamp> & more")), "{name}");
     }
+}
+
+/// Pictures have CCT and Duv by a parabola, which is as good as the search; what is not white has none.
+#[test]
+fn colours_of_pictures_have_a_temperature() {
+    for name in ["A", "D65", "FL11", "LED-B1", "LED-B5", "3000K", "9000K"] {
+        let lamp = crate::named(name).expect("a name").expect("a spectrum");
+        let xyz = crate::source::sums(&lamp.nodes(), crate::observer::cie_1931);
+        let colour = crate::white::turned(&crate::white::XYZ_TO_REC709, xyz);
+        let (kelvin, duv) = cct_of_colour(colour).expect("white");
+        let white = crate::figures(&lamp).white.expect("white");
+        assert!((kelvin / white.cct - 1.0).abs() < 5e-4 && (duv - white.duv).abs() < 2e-5, "{name}: {kelvin} K, {duv}");
+    }
+    assert!([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0; 3], [-1.0, 2.0, 1.0]].into_iter().all(|colour| cct_of_colour(colour).is_none()));
 }

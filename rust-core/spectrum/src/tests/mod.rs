@@ -1,6 +1,7 @@
 //! Figures against published ones and independent code, and files of every kind.
 
 mod bad;
+mod bands;
 mod figures;
 mod reading;
 mod triples;

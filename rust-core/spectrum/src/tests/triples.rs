@@ -5,7 +5,7 @@ fn lamp(name: &str) -> Spectrum {
 }
 
 /// A lamp at whole nanometres from 380 to 780, linear between its points.
-fn fine(name: &str) -> Spectrum {
+pub(super) fn fine(name: &str) -> Spectrum {
     let lamp = lamp(name);
     let wavelengths: Vec<f64> = (380..=780).map(f64::from).collect();
     let power = |nm: &f64| {
@@ -94,29 +94,4 @@ fn reflectances_have_their_colours() {
     let expected = white::turned(&white::XYZ_TO_REC709, light.map(|value| value / sums(&fine("D65").nodes(), cie_1931)[1]));
     near("a ramp", found, expected, 5e-4);
     assert!(triples().filter(|_| 1.5).iter().flatten().all(|value| (value - 1.5).abs() < 1e-6));
-}
-
-/// A lamp of 1 cd/m²: its power by the table of the CIE, over the luminous efficacy of its sum. Beyond 740 nm, where A is brightest and nobody
-/// sees it, cells are up to 20 nm wide.
-#[test]
-fn bins_hold_a_lamps_power() {
-    for (name, width, tolerance) in [("FL11", 5.0, 0.01), ("LED-B3", 5.0, 0.01), ("A", 7.0, 0.15), ("D65", 10.0, 1e-5)] {
-        let lamp = fine(name);
-        let luminance = crate::observer::EFFICACY * sums(&lamp.nodes(), cie_1931)[1];
-        let count = (400.0_f64 / width).ceil() as usize;
-        let mut found = vec![0.0; count];
-        for (values, shares) in triples().tabulate(&lamp).iter().zip(triples().bins(width)) {
-            for (value, shares) in values.iter().zip(shares) {
-                shares.iter().for_each(|(bin, share)| found[*bin as usize] += f64::from(value * share) / Triples::COUNT as f64);
-            }
-        }
-        let mean = |bin: usize| {
-            let [from, to] = [bin, bin + 1].map(|edge| ((width * edge as f64) as usize).min(400));
-            let sum: f64 = (from..to).map(|k| 0.5 * (lamp.power[k] + lamp.power[k + 1])).sum();
-            sum / ((to - from) as f64 * luminance)
-        };
-        let peak = (0..count).map(mean).fold(0.0, f64::max);
-        let worst = (0..count).map(|bin| (found[bin] - mean(bin)).abs()).fold(0.0, f64::max) / peak;
-        assert!(worst < tolerance, "{name}: {worst} of the peak");
-    }
 }

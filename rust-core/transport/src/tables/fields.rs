@@ -101,6 +101,13 @@ impl FieldTable {
             rows[row as usize * ROW..][..ROW].copy_from_slice(&values);
         }
     }
+    /// Replaces the colours of all glows.
+    pub(crate) fn see(&mut self, seen: impl Fn([f32; 3]) -> [f32; 3]) {
+        for glow in self.glow.chunks_exact_mut(ROW) {
+            let colour = seen([glow[0], glow[1], glow[2]]);
+            glow[..3].copy_from_slice(&colour);
+        }
+    }
     /// Bytes of it.
     pub fn memory(&self) -> usize {
         4 * (self.words.len() + self.bounds.len() + self.filled.len())

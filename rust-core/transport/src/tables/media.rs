@@ -50,12 +50,8 @@ impl MediumTable {
             return known as u32 + 1;
         }
         self.rows.push(medium);
+        self.fill_coefficients(&self.rows.clone());
         let rows = &self.rows;
-        let extinction = |row: &Medium, part: usize| row.absorption[part] + row.scattering[part];
-        self.extinction = three(rows, |row, part| if row.field == 0 { extinction(row, part) } else { 0.0 });
-        self.field_extinction = three(rows, |row, part| if row.field == 0 { 0.0 } else { extinction(row, part) });
-        self.scattering = three(rows, |row, part| row.scattering[part]);
-        self.emission = three(rows, |row, part| row.emission[part]);
         self.anisotropy = column(rows, |row| row.phase.henyey_greenstein().unwrap_or(0.0));
         self.phase = Column::new(rows.len() + PADDING);
         for (place, row) in self.phase[1..].iter_mut().zip(rows) {
@@ -67,6 +63,28 @@ impl MediumTable {
         self.shines |= medium.emission != [0.0; 3];
         self.varies |= medium.field != 0;
         self.rows.len() as u32
+    }
+    /// Fills the columns of coefficients.
+    fn fill_coefficients(&mut self, rows: &[Medium]) {
+        let extinction = |row: &Medium, part: usize| row.absorption[part] + row.scattering[part];
+        self.extinction = three(rows, |row, part| if row.field == 0 { extinction(row, part) } else { 0.0 });
+        self.field_extinction = three(rows, |row, part| if row.field == 0 { 0.0 } else { extinction(row, part) });
+        self.scattering = three(rows, |row, part| row.scattering[part]);
+        self.emission = three(rows, |row, part| row.emission[part]);
+    }
+    /// The same media where every colour is seen as something else, such as what it is at one wavelength.
+    pub fn seen(&self, seen: impl Fn([f32; 3]) -> [f32; 3]) -> Self {
+        let of_row = |row: &Medium| Medium {
+            absorption: seen(row.absorption),
+            scattering: seen(row.scattering),
+            emission: seen(row.emission),
+            ..*row
+        };
+        let rows: Vec<Medium> = self.rows.iter().map(of_row).collect();
+        let mut media = self.clone();
+        media.fill_coefficients(&rows);
+        media.fields.see(&seen);
+        media
     }
     /// Whether there is no medium at all.
     pub fn is_empty(&self) -> bool {

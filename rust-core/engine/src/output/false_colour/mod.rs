@@ -177,6 +177,9 @@ mod tests {
         ] {
             assert!(wrong.is_err());
         }
+        assert_eq!(FalseColourScale::around(&[3012.0, f32::NAN, 3390.0], 4).edges(), [3000.0, 3100.0, 3200.0, 3300.0, 3400.0]);
+        assert_eq!(FalseColourScale::around(&[-0.003, 0.0008], 4).edges(), [-0.003, -0.002, -0.001, 0.0, 0.001]);
+        assert_eq!(FalseColourScale::around(&[80.0; 3], 4).edges().len(), 2);
         assert_eq!([0.9, 430.0, 1000.0].map(|high| FalseColourScale::round_max(&[high; 7])), [1.0, 500.0, 1000.0]);
     }
 

@@ -5,7 +5,7 @@ use crate::error::{Error, Result};
 /// Most steps of a scale: more cannot be told apart.
 pub const MOST_STEPS: u32 = 64;
 
-/// Even steps from 0 to a value, or even in the logarithm below it; what lies beyond takes the last step's colour.
+/// Even steps from 0 to a value, even in the logarithm below it, or even between two values; what lies beyond takes the last step's colour.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FalseColourScale {
     /// Edges between steps, ascending: one more than steps.
@@ -47,6 +47,21 @@ impl FalseColourScale {
             Some(decades) => return Err(Error::setting("log", format!("{decades} decades were found, expected above 0 and at most 20"))),
         };
         Ok(Self { edges })
+    }
+
+    /// About so many even steps of a round width (1, 2 or 5 times a power of ten) from the least to the greatest of the values, for quantities whose
+    /// 0 means nothing.
+    pub fn around(values: &[f32], steps: u32) -> Self {
+        let known = || values.iter().map(|value| f64::from(*value)).filter(|value| value.is_finite());
+        let [least, most] = [known().fold(f64::INFINITY, f64::min), known().fold(f64::NEG_INFINITY, f64::max)];
+        let [least, most] = if least <= most { [least, most] } else { [0.0, 1.0] };
+        let span = (most - least).max(1e-3 * most.abs()).max(1e-6);
+        let wanted = span / f64::from(steps.clamp(1, MOST_STEPS));
+        let power = 10f64.powf(wanted.log10().floor());
+        let width = [1.0, 2.0, 5.0, 10.0].into_iter().map(|factor| factor * power).find(|width| *width >= 0.999 * wanted).unwrap_or(wanted);
+        let first = (least / width).floor();
+        let count = ((most / width).ceil() - first).clamp(1.0, f64::from(MOST_STEPS)) as u32;
+        Self { edges: (0..=count).map(|step| ((first + f64::from(step)) * width) as f32).collect() }
     }
 
     /// A round greatest value (1, 2 or 5 times a power of ten) that 99.5 % of the values do not exceed.

@@ -1,0 +1,55 @@
+//! The picture of `gonio render` by wavelength.
+
+use super::{
+    arguments::{OutputArguments, RenderOptions},
+    file::{check_ending, print_path},
+    interrupt::goes_on,
+    messages::list,
+    progress::Reporter,
+    render::{MOST_WARNINGS, attributes},
+};
+use gonio::{
+    Error, Result,
+    measure::Watch,
+    output::{ExrOptions, check_spectral, write_spectral},
+    scene::Scene,
+    spectral_picture::spectral_picture,
+};
+use gonio_simd::Execution;
+use gonio_spectrum::{Bands, bands_of};
+use std::{path::Path, sync::atomic::AtomicBool};
+
+/// Checks what was asked for before anything is rendered.
+pub(super) fn check(files: &OutputArguments) -> Result<()> {
+    let Some(path) = &files.by_wavelength else { return Ok(()) };
+    check_ending("by-wavelength", path, &["exr", "hsr"])?;
+    check_spectral(path, bands(files.band)?)
+}
+
+/// The bands that were asked for.
+fn bands(width_nm: f64) -> Result<&'static Bands> {
+    bands_of(width_nm).ok_or_else(|| Error::setting("band", format!("{width_nm} nm was found, expected 5, 10 or 20")))
+}
+
+/// Renders a scene's view and writes it.
+pub(super) fn render(options: &RenderOptions, scene: &Scene, path: &Path, execution: Execution, interrupted: &AtomicBool) -> Result<()> {
+    let mut reporter = Reporter::new(options.quiet);
+    let mut progress = |progress: &gonio::render::Progress| {
+        reporter.show(progress);
+        goes_on(interrupted)
+    };
+    let mut watch = Watch { previous: None, cancel: interrupted, progress: &mut progress };
+    let found = spectral_picture(scene, bands(options.files.band)?, execution, &mut watch);
+    reporter.clear();
+    let (found, diagnostics) = found?;
+    if !options.quiet {
+        list(&diagnostics, if options.stage.verbose { usize::MAX } else { MOST_WARNINGS });
+    }
+    let exposure = scene.cameras[scene.settings.camera as usize].exposure.0;
+    let notes = ExrOptions { exposure, attributes: attributes(options, scene).to_vec(), ..ExrOptions::default() };
+    write_spectral(path, &found, &notes)?;
+    if !options.quiet {
+        print_path(path);
+    }
+    Ok(())
+}

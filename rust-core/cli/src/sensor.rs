@@ -1,0 +1,64 @@
+//! `gonio sensor`.
+
+use super::{
+    arguments::SensorOptions,
+    file::{self, check_ending, check_targets, print_path, write_or_keep},
+    wavelengths::{self, Wavelengths},
+};
+use gonio::{
+    Error, Result,
+    film::{Frame, Image, Layer},
+    output::{ExrOptions, Further, view_of_exr, write_exr_with},
+    scene::Crop,
+};
+use gonio_spectrum::{Response, Spectrum};
+
+/// The longest file of curves in bytes.
+const LONGEST: u64 = 64 << 20;
+
+/// Sees a picture by wavelength as a sensor does.
+pub(super) fn sensor(options: &SensorOptions) -> Result<i32> {
+    check_ending("output", &options.output, &["exr"])?;
+    check_targets([&options.output])?;
+    let bytes = file::read(&options.response, LONGEST, "sensor")?;
+    let response = Response::read(&bytes).map_err(|error| Error::in_file(&options.response, &error))?;
+    let white = options.white.as_deref().filter(|name| *name != "none").map(super::spectrum::one).transpose()?;
+    let (channels, size) = wavelengths::read(&options.image)?;
+    let Some(found) = Wavelengths::of(&channels) else { return Ok(1) };
+    let weights = weights(&found, &response, white.as_ref())?;
+    let further: Further = response.names.iter().cloned().zip(weights.iter().map(|weights| found.sum(weights))).collect();
+    let image = Image {
+        resolution: size.map(|side| side as u32),
+        window: Crop { min: [0; 2], max: size.map(|side| side as u32) },
+        frame: Frame { view: view_of_exr(&options.image)?, ..Frame::default() },
+        backdrop: Default::default(),
+        layers: Vec::<Layer>::new(),
+        samples: 1,
+        mean_samples: 1.0,
+        manifests: Default::default(),
+        deep: None,
+    };
+    write_or_keep(&options.output, |path| write_exr_with(path, &image, &further, &ExrOptions::default()))?;
+    if !options.quiet {
+        print_path(&options.output);
+    }
+    Ok(0)
+}
+
+/// By channel and band, what a radiance of 1 W/(m² sr nm) there adds to the channel. With a white, its light of 1 cd/m² is 1 in all channels.
+fn weights(found: &Wavelengths<'_>, response: &Response, white: Option<&Spectrum>) -> Result<Vec<Vec<f64>>> {
+    let widths = found.widths();
+    let by_band: Vec<Vec<f64>> = found.nm.iter().map(|nm| response.at(*nm)).collect();
+    let mut weights: Vec<Vec<f64>> =
+        (0..response.names.len()).map(|channel| by_band.iter().zip(&widths).map(|(band, width)| band[channel] * width).collect()).collect();
+    let Some(white) = white else { return Ok(weights) };
+    let luminous = white.luminous();
+    for (channel, weights) in response.names.iter().zip(&mut weights) {
+        let of_white: f64 = found.nm.iter().zip(weights.iter()).map(|(nm, weight)| weight * white.at(*nm) / luminous).sum();
+        if !(of_white > 0.0) {
+            return Err(Error::setting("white", format!("channel {channel} sees nothing of this white; --white none leaves it as it is")));
+        }
+        weights.iter_mut().for_each(|weight| *weight /= of_white);
+    }
+    Ok(weights)
+}

@@ -1,0 +1,97 @@
+//! Pictures by wavelength, as `gonio render --by-wavelength` writes them, and what they tell: channels of sensors, CCT, Duv, melanopic luminance.
+
+use gonio::{
+    Error, Result,
+    output::{Channels, has_other_primaries, read_exr},
+};
+use gonio_spectrum::{cct_of_colour, melanopic_daylight};
+use std::path::Path;
+
+/// Bands of a picture by wavelength, by their channels' names, in order.
+pub(super) struct Wavelengths<'a> {
+    /// The middles, nm.
+    pub(super) nm: Vec<f64>,
+    /// By band, W/(m² sr nm).
+    pub(super) radiance: Vec<&'a [f32]>,
+}
+
+impl<'a> Wavelengths<'a> {
+    /// Those among the channels of a file; none where it has fewer than three.
+    pub(super) fn of(channels: &'a Channels) -> Option<Self> {
+        let number = |name: &str| name.strip_prefix("S0.")?.strip_suffix("nm")?.replace(',', ".").parse::<f64>().ok();
+        let mut bands: Vec<(f64, &[f32])> =
+            channels.iter().filter_map(|(name, values)| Some((number(name).filter(|nm| nm.is_finite())?, values.as_slice()))).collect();
+        bands.sort_by(|a, b| a.0.total_cmp(&b.0));
+        bands.dedup_by(|a, b| a.0.total_cmp(&b.0).is_eq());
+        let (nm, radiance): (Vec<f64>, Vec<&[f32]>) = bands.into_iter().unzip();
+        (nm.len() >= 3).then_some(Self { nm, radiance })
+    }
+
+    /// The width of each band, nm: half of the way to its neighbours on both sides.
+    pub(super) fn widths(&self) -> Vec<f64> {
+        let last = self.nm.len() - 1;
+        let gap = |below: usize| self.nm[below + 1] - self.nm[below];
+        (0..self.nm.len()).map(|k| 0.5 * (gap(k.saturating_sub(1)) + gap(k.min(last - 1)))).collect()
+    }
+
+    /// The sum over the bands of radiance times these, pixel by pixel.
+    pub(super) fn sum(&self, weights: &[f64]) -> Vec<f32> {
+        let pixels = self.radiance.first().map_or(0, |band| band.len());
+        let mut sums = vec![0.0_f64; pixels];
+        for (band, weight) in self.radiance.iter().zip(weights).filter(|(_, weight)| **weight != 0.0) {
+            sums.iter_mut().zip(*band).for_each(|(sum, value)| *sum += weight * f64::from(*value));
+        }
+        sums.into_iter().map(|sum| sum as f32).collect()
+    }
+}
+
+/// A quantity of the light's colour that a file has no channel of; none of other quantities.
+///
+/// # Errors
+/// The file has nothing of which it could be told.
+pub(super) fn derived(path: &Path, channels: &Channels, quantity: &str) -> Result<Option<Vec<f32>>> {
+    let figure: fn((f64, f64)) -> f64 = match quantity.to_ascii_lowercase().as_str() {
+        "cct" => |(kelvin, _)| kelvin,
+        "duv" => |(_, duv)| duv,
+        "melanopic" => return melanopic(path, channels).map(Some),
+        _ => return Ok(None),
+    };
+    let channel = |name: &str| {
+        let found = channels.iter().find(|(known, _)| known == name || known.ends_with(&format!("Combined.{name}")));
+        found
+            .map(|(_, values)| values)
+            .ok_or_else(|| lacks(path, &format!("{quantity} wants the colour channels R, G and B; there is no {name}")))
+    };
+    if has_other_primaries(path)? {
+        return Err(lacks(path, &format!("{quantity} wants colours in linear Rec.709, and the file's have other primaries")));
+    }
+    let [red, green, blue] = [channel("R")?, channel("G")?, channel("B")?];
+    let of_pixel =
+        |((r, g), b): ((&f32, &f32), &f32)| cct_of_colour([*r, *g, *b].map(f64::from)).map_or(f32::NAN, |found| figure(found) as f32);
+    Ok(Some(red.iter().zip(green).zip(blue).map(of_pixel).collect()))
+}
+
+/// Melanopic equivalent daylight luminance, cd/m².
+fn melanopic(path: &Path, channels: &Channels) -> Result<Vec<f32>> {
+    let found = Wavelengths::of(channels).ok_or_else(|| {
+        lacks(path, "melanopic luminance wants a picture by wavelength (gonio render --by-wavelength): colour does not tell it")
+    })?;
+    let weights: Vec<f64> = found.nm.iter().zip(found.widths()).map(|(nm, width)| width * melanopic_daylight(*nm)).collect();
+    Ok(found.sum(&weights))
+}
+
+/// A file's channels and size, which must be by wavelength.
+pub(super) fn read(path: &Path) -> Result<(Channels, [usize; 2])> {
+    let (channels, size) = read_exr(path)?;
+    match Wavelengths::of(&channels) {
+        Some(_) => Ok((channels, size)),
+        None => Err(lacks(
+            path,
+            "no picture by wavelength, which gonio render --by-wavelength writes: there are no channels such as S0.550,000000nm",
+        )),
+    }
+}
+
+fn lacks(path: &Path, problem: &str) -> Error {
+    Error::Format { path: path.to_owned(), line: None, problem: problem.to_owned() }
+}

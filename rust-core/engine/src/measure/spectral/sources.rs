@@ -1,0 +1,57 @@
+//! A scene's light by what sends it: the spectra of its lamps, each once, and daylight D65, whose colours all other light has.
+
+use crate::{
+    error::{Error, Result},
+    scene::{LampSpectrum, Light, Scene},
+};
+use gonio_spectrum::{Spectrum, named};
+use std::sync::Arc;
+
+/// Light of one spectrum alone.
+pub(super) struct SourceScene {
+    /// What of the scene shines with it.
+    pub(super) scene: Scene,
+    pub(super) spectrum: Spectrum,
+}
+
+/// The scene by its spectra; a scene without light has daylight alone.
+///
+/// # Errors
+/// A lamp's spectrum that cannot be used.
+pub(super) fn by_spectrum(scene: &Scene) -> Result<Vec<SourceScene>> {
+    let mut known: Vec<&Arc<LampSpectrum>> = Vec::new();
+    for spectrum in scene.lights.iter().filter(|light| shines(light)).filter_map(|light| light.spectrum.as_ref()) {
+        if !known.contains(&spectrum) {
+            known.push(spectrum);
+        }
+    }
+    let of_lamps = known.iter().map(|spectrum| of_lamp(scene, spectrum)).collect::<Result<Vec<_>>>()?;
+    let others = alone(scene, |light| light.spectrum.is_none());
+    let has_others = others.lights.iter().any(shines) || known.is_empty() || scene.shines_without_lights();
+    let daylight = if has_others { Some(SourceScene { scene: others, spectrum: daylight()? }) } else { None };
+    Ok(of_lamps.into_iter().chain(daylight).collect())
+}
+
+fn of_lamp(scene: &Scene, spectrum: &Arc<LampSpectrum>) -> Result<SourceScene> {
+    let is_of = |light: &Light| light.spectrum.as_ref() == Some(spectrum);
+    let origin = scene.lights.iter().find(|light| is_of(light)).map(|light| light.origin.clone()).unwrap_or_default();
+    let found = Spectrum::new(&spectrum.name, &spectrum.wavelengths_nm, &spectrum.power);
+    let spectrum = found.map_err(|error| Error::scene(&origin, format!("its spectrum cannot be used: {error}")))?;
+    let lit = alone(scene, is_of);
+    Ok(SourceScene { scene: Scene { lights: lit.lights, ..scene.without_emission() }, spectrum })
+}
+
+/// With the lights that are wanted, and portals, which let their light in.
+fn alone(scene: &Scene, wanted: impl Fn(&Light) -> bool) -> Scene {
+    let mut alone = scene.clone();
+    alone.lights.retain(|light| light.portal || wanted(light));
+    alone
+}
+
+fn shines(light: &Light) -> bool {
+    !light.portal && light.dimming != 0.0
+}
+
+fn daylight() -> Result<Spectrum> {
+    named("D65").and_then(std::result::Result::ok).ok_or_else(|| Error::Internal("daylight D65 is not known".to_owned()))
+}

@@ -1,0 +1,151 @@
+"""`gonio measure` of the light's colour, `gonio render --by-wavelength`, `gonio sensor`, and what `gonio falsecolor` shows of them."""
+
+import json
+
+import numpy as np
+import pytest
+
+gonio = pytest.importorskip("gonio")
+pytest.importorskip("pxr")
+OpenEXR = pytest.importorskip("OpenEXR")
+
+STAGE = """#usda 1.0
+(
+    metersPerUnit = 1
+    upAxis = "Z"
+)
+def Mesh "Floor" {
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]
+    point3f[] points = [(-2, -2, 0), (2, -2, 0), (2, 2, 0), (-2, 2, 0)]
+    rel material:binding = </Wall>
+}
+def Material "Wall" {
+    token outputs:surface.connect = </Wall/Surface.outputs:surface>
+    def Shader "Surface" {
+        uniform token info:id = "UsdPreviewSurface"
+        color3f inputs:diffuseColor = (0.5, 0.5, 0.5)
+        color3f inputs:specularColor = (0, 0, 0)
+        int inputs:useSpecularWorkflow = 1
+        token outputs:surface
+    }
+}
+def SphereLight "Lamp" {
+    float inputs:radius = 0.05
+    float inputs:intensity = 100000
+    custom string gonio:spectrum = "%s"
+    double3 xformOp:translate = (0, 0, 2)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+def Camera "Camera" {
+    float focalLength = 50
+    double3 xformOp:translate = (0, 0, 6)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+"""
+
+
+@pytest.fixture
+def stage(tmp_path):
+    def write(spectrum="LED-B3"):
+        path = tmp_path / "room.usda"
+        path.write_text(STAGE % spectrum)
+        return path
+
+    return write
+
+
+def channels(path):
+    with OpenEXR.File(str(path), separate_channels=True) as file:
+        return {name: np.array(channel.pixels) for name, channel in file.channels().items()}
+
+
+def test_colour_at_a_point_and_on_a_grid(run, stage, tmp_path):
+    path, picture = stage(), tmp_path / "plane.png"
+    found = run("measure", path, "--at", "0.5,0,0", "--grid", "/Floor", "--spacing", "2", "--quantity", "cct", "-p", "256", "-o", picture, "--quiet")
+    lines = found.stdout.splitlines()
+    assert "cct 4103" in lines[0] and " K ± " in lines[0] and "Ra 84.9" in lines[0] and "Duv -0.0006" in lines[0]
+    assert not any("U0" in line for line in lines) and any("average: 4103" in line for line in lines)
+    assert picture.stat().st_size > 1000
+    as_json = json.loads(run("measure", path, "--at", "0.5,0,0", "--quantity", "ra", "-p", "256", "--json", "--quiet").stdout)["meters"][0]
+    colour, lamp = as_json["colour"], json.loads(run("spectrum", "LED-B3", "--json").stdout)
+    for name in ("cct", "duv", "ra", "rf", "rg", "melanopic_der", "x", "y"):
+        assert colour[name] == pytest.approx(lamp[name], rel=1e-4), name
+    assert as_json["value"] == colour["ra"] and as_json["unit"] == ""
+    assert len(colour["wavelengths_nm"]) == len(colour["irradiance_w_m2_nm"]) == lamp["points"]
+    assert set(colour["standard_errors"]) == {"cct", "duv", "ra", "rf", "rg", "illuminance_lx", "melanopic_edi_lx"}
+
+
+def test_a_report_has_them(run, stage, tmp_path):
+    path, page = stage(), tmp_path / "report.html"
+    path.write_text(path.read_text().replace('def Mesh "Floor" {', 'def Mesh "Floor" {\n    custom bool gonio:grid = 1\n    custom string gonio:grid:quantity = "rf"\n'))
+    run("report", path, "-o", page, "--quiet", "--point-spp", "128", "-p", "1")
+    assert "rf" in page.read_text()
+
+
+def test_a_picture_by_wavelength(run, stage, tmp_path):
+    picture, page = tmp_path / "room.exr", tmp_path / "cct.png"
+    found = run("render", stage(), "-w", "32", "-p", "4", "--by-wavelength", picture, "--band", "20")
+    assert str(picture) in found.stdout
+    of = channels(picture)
+    assert sum(name.startswith("S0.") for name in of) == 20 and {"R", "G", "B", "A"} <= set(of)
+    assert [path.name for path in tmp_path.glob("*.exr")] == ["room.exr"]
+    run("falsecolor", picture, "--quantity", "cct", "-o", page)
+    run("falsecolor", picture, "--quantity", "melanopic", "-o", tmp_path / "melanopic.png")
+    assert page.stat().st_size > 500
+    # Beside an ordinary picture, which is another file.
+    run("render", stage(), "-w", "32", "-p", "4", "--by-wavelength", tmp_path / "again.hsr", "--band", "20", "-o", tmp_path / "colour.exr", "--quiet")
+    assert (tmp_path / "again.hsr").stat().st_size > 32 * 20 and "S0.390,000000nm" not in channels(tmp_path / "colour.exr")
+
+
+def test_a_sensor_of_the_eyes_own_curves(run, stage, tmp_path):
+    """A sensor whose curve is V(λ) sees luminance, whatever lamp: white balance cancels, as one channel has one scale."""
+    picture, out, curves = tmp_path / "room.exr", tmp_path / "photo.exr", tmp_path / "curves.csv"
+    run("render", stage("FL11"), "-w", "32", "-p", "4", "--by-wavelength", picture, "--band", "5", "--quiet")
+    nm = np.arange(380.0, 781.0)
+    photopic = np.exp(-0.5 * ((nm - 556.3) / 42.5) ** 2)
+    curves.write_text("nm,V,flat\n" + "\n".join(f"{a:.0f},{b:.6f},1" for a, b in zip(nm, photopic, strict=True)))
+    run("sensor", picture, curves, "-o", out, "--white", "FL11", "--quiet")
+    of, original = channels(out), channels(picture)
+    assert set(of) == {"V", "flat"}
+    luminance = 0.2126 * original["R"] + 0.7152 * original["G"] + 0.0722 * original["B"]
+    # A grey wall under the very lamp: all channels are its luminance.
+    np.testing.assert_allclose(of["V"], luminance, rtol=0.02, atol=1e-3 * luminance.max())
+    np.testing.assert_allclose(of["flat"], luminance, rtol=0.02, atol=1e-3 * luminance.max())
+    raw = tmp_path / "raw.exr"
+    run("sensor", picture, curves, "-o", raw, "--white", "none", "--quiet")
+    bands = np.stack([pixels for name, pixels in sorted(original.items()) if name.startswith("S0.")], -1)
+    np.testing.assert_allclose(channels(raw)["flat"], 5.0 * bands.sum(axis=-1), rtol=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("text", "what"),
+    [
+        ("nm,R\n400,1\n410,x\n", "'x' is no number"),
+        ("nm,R\n400,1\n390,1\n", "beyond the wavelength before"),
+        ("nm,R\n400,1\n410,1\n", "expected 5 at least"),
+        ("nm,R\n0.4,1\n0.5,1\n", "no wavelength"),
+        ("nm,R\n400,1,2\n410,1\n", "expected 2"),
+        ("nm,R,R\n" + "".join(f"{nm},1,1\n" for nm in range(400, 480, 10)), "a name of its own"),
+        ("", "expected 5 at least"),
+    ],
+)
+def test_broken_curves_are_told(run, tmp_path, text, what):
+    curves = tmp_path / "curves.csv"
+    curves.write_text(text)
+    found = run("sensor", tmp_path / "room.exr", curves, "-o", tmp_path / "photo.exr")
+    assert what in found.stderr and "curves.csv" in found.stderr
+
+
+def test_pictures_of_colour_are_no_pictures_by_wavelength(run, stage, tmp_path):
+    picture, curves = tmp_path / "room.exr", tmp_path / "curves.csv"
+    run("render", stage(), "-w", "8", "-p", "1", "-o", picture, "--quiet")
+    curves.write_text("".join(f"{nm},1\n" for nm in range(400, 480, 10)))
+    found = run("sensor", picture, curves, "-o", tmp_path / "photo.exr")
+    assert "--by-wavelength" in found.stderr
+    found = run("falsecolor", picture, "--quantity", "melanopic", "-o", tmp_path / "m.png")
+    assert "--by-wavelength" in found.stderr
+    found = run("render", stage(), "-w", "8", "-p", "1", "--by-wavelength", tmp_path / "room.png")
+    assert "expected exr or hsr" in found.stderr
+    found = run("render", stage(), "-w", "8", "-p", "1", "--by-wavelength", tmp_path / "r.exr", "--band", "7")
+    assert "5, 10 or 20" in found.stderr
