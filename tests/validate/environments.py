@@ -13,6 +13,7 @@ REQUIREMENTS = {
     "mitsuba": ["mitsuba>=3.5,<4", "numpy"],
     "luxcore": ["pyluxcore>=2.10,<3", "numpy"],
     "radiance": ["pyradiance>=1.3,<2"],
+    "honeybee": ["honeybee-radiance-postprocess>=0.5.25,<0.6", "honeybee-radiance>=1.66,<2"],
     "farm": ["distributed>=2025.1", "openjd-cli>=0.8", "usd-core>=25.5", "numpy"],
 }
 INSTALL_TIME = 1200
