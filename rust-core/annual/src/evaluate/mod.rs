@@ -1,5 +1,6 @@
 //! A year at the points of a grid: chunks of steps go through sky, product and metrics, so that memory does not grow with the year.
 
+mod blinds;
 mod columns;
 mod prepared;
 mod shape;

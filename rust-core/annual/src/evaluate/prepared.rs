@@ -1,16 +1,14 @@
 //! What light groups of windows let in, and when their blinds are closed.
 
-use super::columns::Columns;
+use super::{
+    blinds::{GroupLight, Operated, operated},
+    columns::Columns,
+};
 use crate::{
     Coefficients,
     group::{Blinds, Group},
     product::Panels,
 };
-
-/// Direct sun that has blinds closed, lx (LM-83-12).
-const TOO_BRIGHT: f32 = 1000.0;
-/// Blinds close when more than this share of the points has it.
-const TOO_MANY: f64 = 0.02;
 
 /// A group's matrices as products take them.
 pub(super) struct Prepared {
@@ -76,19 +74,13 @@ impl Direct {
 /// Light of all groups at `[point][step]` in lx: of sky and sun with blinds as they are operated, and of the sun alone through open ones.
 pub(super) fn light(groups: &[Prepared], columns: &Columns, threads: usize) -> (Vec<f32>, Option<Vec<f32>>) {
     let steps = columns.suns.len();
+    let open: Vec<GroupLight> = groups.iter().map(|group| group.open_light(columns, threads)).collect();
+    let operated = operated(&open, steps, |group| groups[group].closed_light(&open[group].open, columns, threads));
+    let knows_sun = open.iter().all(|group| group.direct.is_some());
     let (mut total, mut direct): (Vec<f32>, Option<Vec<f32>>) = (Vec::new(), None);
-    for group in groups {
-        let of_sun = group.direct.as_ref().map(|direct| direct.light(columns, threads));
-        let mut light = match (&group.sun, &group.scattered, &of_sun) {
-            (Some(sun), ..) => sum(group.open.times(&columns.sky, threads), &sun.light(columns, threads)),
-            (None, Some(scattered), Some(of_sun)) => {
-                let of_sky = sum(group.open.times(&columns.sky, threads), &scattered.times(&columns.alone, threads));
-                sum(of_sky, of_sun)
-            }
-            _ => group.open.times(&columns.all, threads),
-        };
-        if let (Some(blinds), Some(of_sun)) = (&group.blinds, &of_sun) {
-            close(&mut light, blinds, &closed(of_sun, steps), columns, threads);
+    for (GroupLight { open: mut light, direct: of_sun, .. }, operated) in open.into_iter().zip(operated) {
+        if let Some(operated) = operated {
+            close(&mut light, &operated);
         }
         total = if total.is_empty() { light } else { sum(total, &light) };
         direct = match (direct, of_sun) {
@@ -96,7 +88,32 @@ pub(super) fn light(groups: &[Prepared], columns: &Columns, threads: usize) -> (
             (others, of_sun) => others.or(of_sun),
         };
     }
-    (total, direct.filter(|_| groups.iter().all(|group| group.direct.is_some())))
+    (total, direct.filter(|_| knows_sun))
+}
+
+impl Prepared {
+    /// Its light with blinds open.
+    fn open_light(&self, columns: &Columns, threads: usize) -> GroupLight {
+        let of_sun = self.direct.as_ref().map(|direct| direct.light(columns, threads));
+        let open = match (&self.sun, &self.scattered, &of_sun) {
+            (Some(sun), ..) => sum(self.open.times(&columns.sky, threads), &sun.light(columns, threads)),
+            (None, Some(scattered), Some(of_sun)) => {
+                let of_sky = sum(self.open.times(&columns.sky, threads), &scattered.times(&columns.alone, threads));
+                sum(of_sky, of_sun)
+            }
+            _ => self.open.times(&columns.all, threads),
+        };
+        GroupLight { open, direct: of_sun, has_blinds: self.blinds.is_some() }
+    }
+
+    /// Its light with blinds closed, of which `open` is that with open ones.
+    fn closed_light(&self, open: &[f32], columns: &Columns, threads: usize) -> Vec<f32> {
+        match &self.blinds {
+            Some(Closed::Share(share)) => open.iter().map(|value| value * share).collect(),
+            Some(Closed::Panels(panels)) => panels.times(&columns.all, threads),
+            None => open.to_vec(),
+        }
+    }
 }
 
 fn sum(mut to: Vec<f32>, other: &[f32]) -> Vec<f32> {
@@ -104,25 +121,8 @@ fn sum(mut to: Vec<f32>, other: &[f32]) -> Vec<f32> {
     to
 }
 
-/// In which steps a group's blinds are closed.
-fn closed(direct: &[f32], steps: usize) -> Vec<bool> {
-    let mut bright = vec![0_usize; steps];
-    for row in direct.chunks_exact(steps) {
-        bright.iter_mut().zip(row).for_each(|(count, value)| *count += usize::from(*value >= TOO_BRIGHT));
-    }
-    let points = direct.len() / steps;
-    bright.into_iter().map(|count| count as f64 > TOO_MANY * points as f64).collect()
-}
-
 /// Takes what closed blinds leave in the steps in which they are closed.
-fn close(light: &mut [f32], blinds: &Closed, closed: &[bool], columns: &Columns, threads: usize) {
-    if !closed.contains(&true) {
-        return;
-    }
-    let dimmed = match blinds {
-        Closed::Share(share) => light.iter().map(|value| value * share).collect(),
-        Closed::Panels(panels) => panels.times(&columns.all, threads),
-    };
-    let steps = closed.iter().cycle();
-    light.iter_mut().zip(dimmed).zip(steps).filter(|(_, closed)| **closed).for_each(|((value, dimmed), _)| *value = dimmed);
+fn close(light: &mut [f32], operated: &Operated) {
+    let steps = operated.steps.iter().cycle();
+    light.iter_mut().zip(&operated.light).zip(steps).filter(|(_, closed)| **closed).for_each(|((value, dimmed), _)| *value = *dimmed);
 }
