@@ -108,7 +108,7 @@ def test_fog_and_fire_are_by_wavelength():
     absorption = (0.1, 0.3, 0.7)
     made = gonio.Scene()
     square = made.add_mesh(SQUARE * np.float32(4), CORNERS)
-    made.add_instance(square, [made.add_material(base_color=(0, 0, 0), specular_weight=0.0, emission_color=(1, 1, 1), emission_luminance=50.0)])
+    made.add_instance(square, [made.add_material(base_color=(0, 0, 0), specular_weight=0.0, emission_color=(50.0,) * 3)])
     made.add_camera([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 2], [0, 0, 0, 1]], fov=1.0)
     made.put_atmosphere(medium(absorption=absorption))
     made.set(width=4, height=4, samples=4)

@@ -97,7 +97,8 @@ impl Choice {
             })
             .collect();
         let all = (1 << operable.len().min(usize::BITS as usize - 1)) - 1;
-        let cost = |mask: usize| taken.iter().enumerate().filter(|(number, _)| mask >> number & 1 != 0).map(|(_, taken)| taken).sum::<f64>();
+        let cost =
+            |mask: usize| taken.iter().enumerate().filter(|(number, _)| mask >> number & 1 != 0).map(|(_, taken)| taken).sum::<f64>();
         if operable.len() > TRIED {
             return Self { closed: one_by_one(operable.len(), points, sunny, cost) };
         }

@@ -43,7 +43,6 @@ use glare::Coverage;
 use gonio_simd::Execution;
 use reading::Found;
 use sense::Probe;
-use sensing::Effort;
 use std::sync::Arc;
 
 /// What all meters and grids of a scene show.
@@ -122,7 +121,7 @@ fn read(
     let mut sense = |scene: &Scene, probes: &[Probe], diagnostics: &mut Vec<Diagnostic>| {
         let compiled = Arc::new(compile(scene, watch.previous, watch.cancel)?);
         diagnostics.extend(compiled.diagnostics.iter().cloned());
-        let sensed = sense::sense(&compiled, (probes, Effort::WHOLE), &scene.settings, execution, watch)?;
+        let sensed = sense::sense(&compiled, probes, &scene.settings, execution, watch)?;
         tell_around(&sensed, meters, diagnostics);
         Ok::<_, Error>(sensed.readings)
     };

@@ -141,37 +141,65 @@ fn radius(scene: &CompiledScene) -> f64 {
 /// Measures at all probes; `settings.samples` a point, rounded up to what a block of pixels has room for.
 pub(super) fn sense(
     scene: &Arc<CompiledScene>,
-    (probes, effort): (&[Probe], Effort),
+    probes: &[Probe],
     settings: &Settings,
     execution: Execution,
     watch: &mut Watch<'_>,
 ) -> Result<Sensed> {
-    let (sensors, places) = placed(scene, probes);
-    let radius = radius(scene);
-    let settings = unlimited(settings);
-    let sensing = Sensing { scene, sensors: &sensors, settings: &settings, execution, effort };
-    // Meters may stand far off the scene: from there its lamps are small.
-    let middle = scene.bounds.centre();
-    let reach = places.iter().map(|place| length(subtract(*place, middle))).filter(|reach| reach.is_finite()).fold(radius, f64::max);
-    let starts = light_paths_measure::for_meters(scene, &settings, reach, watch.cancel);
-    let light_paths = starts.and_then(|starts| LightPaths::bringing(scene, &starts));
-    let rough = light_paths_measure::is_behind_rough_glass(scene, &settings);
-    let left_out =
-        || light_paths_measure::has_rough_glass(scene) || light_paths_measure::is_left_out(scene, &settings, reach, watch.cancel);
-    let in_part = !light_paths_measure::are_followed(&settings) && left_out();
-    if light_paths.is_none() && !rough {
-        return Ok(Sensed { readings: sensing.readings(watch.progress)?, discs: None, in_part, missed: 0 });
+    let plan = Plan::new(scene, probes, settings, watch);
+    plan.follow(scene, Effort::WHOLE, settings, execution, watch)
+}
+
+/// How some probes are measured: what they stand in, and which light comes by light paths.
+pub(super) struct Plan {
+    sensors: Vec<Sensor>,
+    /// Of those that light paths bring light to.
+    discs: Discs,
+    light_paths: Option<(LightPaths, Arc<[u32]>)>,
+    rough: bool,
+    in_part: bool,
+}
+
+impl Plan {
+    pub(super) fn new(scene: &CompiledScene, probes: &[Probe], settings: &Settings, watch: &Watch<'_>) -> Self {
+        let (sensors, places) = placed(scene, probes);
+        let settings = unlimited(settings);
+        // Meters may stand far off the scene: from there its lamps are small.
+        let middle = scene.bounds.centre();
+        let reaches = places.iter().map(|place| length(subtract(*place, middle))).filter(|reach| reach.is_finite());
+        let reach = reaches.fold(radius(scene), f64::max);
+        let starts = light_paths_measure::for_meters(scene, &settings, reach, watch.cancel);
+        let light_paths = starts.and_then(|starts| LightPaths::bringing(scene, &starts));
+        let rough = light_paths_measure::is_behind_rough_glass(scene, &settings);
+        let left_out =
+            || light_paths_measure::has_rough_glass(scene) || light_paths_measure::is_left_out(scene, &settings, reach, watch.cancel);
+        let in_part = !light_paths_measure::are_followed(&settings) && left_out();
+        let of = |(probe, sensor): (&Probe, &Sensor)| if probe.looks { Disc::default() } else { Disc::of(sensor, probe.reach, scene) };
+        let are_wanted = light_paths.is_some() || rough;
+        let discs = if are_wanted { probes.iter().zip(&sensors).map(of).collect() } else { Vec::new() };
+        Self { sensors, discs: Discs::new(discs), light_paths, rough, in_part }
     }
-    let of = |(probe, sensor): (&Probe, &Sensor)| if probe.looks { Disc::default() } else { Disc::of(sensor, probe.reach, scene) };
-    let discs = Discs::new(probes.iter().zip(&sensors).map(of).collect());
-    let readings = match light_paths {
-        None => sensing.readings(watch.progress)?,
-        Some(light_paths) => with_light_paths(&sensing, &discs, light_paths, watch)?,
-    };
-    let (readings, missed) = if rough { with_missed(&sensing, &discs, readings, watch)? } else { (readings, 0) };
-    let radii = || discs.all().iter().map(|disc| disc.radius).filter(|radius| *radius > 0.0);
-    let widest = radii().reduce(f64::max);
-    Ok(Sensed { readings, discs: widest.map(|widest| [radii().fold(widest, f64::min), widest]), in_part, missed })
+
+    /// Measures in the scene that the plan was made for, or as that is in a band of wavelengths.
+    pub(super) fn follow(
+        &self,
+        scene: &Arc<CompiledScene>,
+        effort: Effort,
+        settings: &Settings,
+        execution: Execution,
+        watch: &mut Watch<'_>,
+    ) -> Result<Sensed> {
+        let settings = unlimited(settings);
+        let sensing = Sensing { scene, sensors: &self.sensors, settings: &settings, execution, effort };
+        let readings = match &self.light_paths {
+            None => sensing.readings(watch.progress)?,
+            Some(light_paths) => with_light_paths(&sensing, &self.discs, light_paths.clone(), watch)?,
+        };
+        let (readings, missed) = if self.rough { with_missed(&sensing, &self.discs, readings, watch)? } else { (readings, 0) };
+        let radii = || self.discs.all().iter().map(|disc| disc.radius).filter(|radius| *radius > 0.0);
+        let discs = radii().reduce(f64::max).map(|widest| [radii().fold(widest, f64::min), widest]);
+        Ok(Sensed { readings, discs, in_part: self.in_part, missed })
+    }
 }
 
 /// With the light that light paths bring: to all surfaces as photons, and to the meters on discs.

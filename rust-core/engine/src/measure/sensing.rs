@@ -78,7 +78,7 @@ impl Effort {
 
     /// For one of many that do so together, of so many samples.
     pub(super) fn of_part(samples: u32) -> Self {
-        Self { most_pixels: samples as usize, rounds: 1, first_look: 8, goes_on: false }
+        Self { most_pixels: samples as usize, rounds: 1, first_look: 4, goes_on: false }
     }
 }
 

@@ -9,7 +9,6 @@ use super::{
     glare::Coverage,
     reading::{Reading, SmallSources},
     sense::{Probe, Sensed, sense},
-    sensing::Effort,
     watch::Watch,
 };
 use crate::{
@@ -35,7 +34,7 @@ pub(super) fn ratings(
     let probes = meters.iter().map(|meter| Probe::new(meter)).collect::<Result<Vec<_>>>()?;
     let compiled = Arc::new(compile(scene, watch.previous, watch.cancel)?);
     diagnostics.extend(compiled.diagnostics.iter().cloned());
-    let Sensed { readings: all, discs, .. } = sense(&compiled, (&probes, Effort::WHOLE), &scene.settings, execution, watch)?;
+    let Sensed { readings: all, discs, .. } = sense(&compiled, &probes, &scene.settings, execution, watch)?;
     if let (Some(_), Some(first)) = (discs, meters.first()) {
         let message = "light of luminaires that mirrors and clear glass send to the eye counts as background: as a source each is rated where it is \
                        seen directly";
@@ -43,7 +42,7 @@ pub(super) fn ratings(
     }
     let alone = under_luminaires(scene);
     let under_them = Arc::new(compile(&alone, Some(&compiled), watch.cancel)?);
-    let direct = sense(&under_them, (&probes, Effort::WHOLE), &alone.settings, execution, watch)?.readings;
+    let direct = sense(&under_them, &probes, &alone.settings, execution, watch)?.readings;
     for light in scene.lights.iter().filter(|light| is_luminaire(light) && light.takes_away()) {
         diagnostics.push(Diagnostic::warning(&light.origin, "it takes light away, and so is no source of glare"));
     }

@@ -14,7 +14,7 @@ use crate::{
     compile::{BandedScene, compile},
     error::{Diagnostic, Error, Result},
     measure::{
-        sense::{Probe, Sensed, sense},
+        sense::{Plan, Probe, Sensed},
         sensing::Effort,
         watch::Watch,
     },
@@ -95,6 +95,7 @@ impl Sweep<'_> {
         if self.first.is_none() {
             diagnostics.extend(compiled.diagnostics.iter().cloned());
         }
+        let plan = Plan::new(&compiled, self.places, &scene.settings, watch);
         let mut banded = BandedScene::with_even_lamps(compiled, self.bands);
         let samples = (scene.settings.samples / PART).max(FEWEST);
         let mut values = vec![vec![Vec::with_capacity(self.bands.count()); ROUNDS as usize]; self.places.len()];
@@ -109,7 +110,7 @@ impl Sweep<'_> {
                     (watch.progress)(&Progress { fraction, ..*part })
                 };
                 let mut watch = Watch { previous: None, cancel: watch.cancel, progress: &mut progress };
-                let mut sensed = sense(at_band, (self.places, Effort::of_part(samples)), &settings, self.execution, &mut watch)?;
+                let mut sensed = plan.follow(at_band, Effort::of_part(samples), &settings, self.execution, &mut watch)?;
                 let readings = std::mem::take(&mut sensed.readings);
                 values.iter_mut().zip(readings).for_each(|(rounds, reading)| rounds[round as usize].push(reading.value));
                 self.first.get_or_insert(sensed);
