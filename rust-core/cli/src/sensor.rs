@@ -55,7 +55,7 @@ fn weights(found: &Wavelengths<'_>, response: &Response, white: Option<&Spectrum
     let luminous = white.luminous();
     for (channel, weights) in response.names.iter().zip(&mut weights) {
         let of_white: f64 = found.nm.iter().zip(weights.iter()).map(|(nm, weight)| weight * white.at(*nm) / luminous).sum();
-        if !(of_white > 0.0) {
+        if of_white.is_nan() || of_white <= 0.0 {
             return Err(Error::setting("white", format!("channel {channel} sees nothing of this white; --white none leaves it as it is")));
         }
         weights.iter_mut().for_each(|weight| *weight /= of_white);

@@ -1,6 +1,6 @@
 //! A scene whose lights alone send light.
 
-use super::{Closure, Material, Medium, Scene};
+use super::{Closure, Input, Material, Medium, Scene};
 
 impl Scene {
     /// The scene with its lights as they are, and nothing else that sends light: surfaces, solids, what fills meshes and all of space. What these reflect,
@@ -15,7 +15,8 @@ impl Scene {
     /// Whether anything may send light that is no light: a surface, a solid, what fills meshes or all of space.
     pub fn shines_without_lights(&self) -> bool {
         let shines = |medium: &Medium| medium.emission != [0.0; 3];
-        let closure = |closure: &Closure| shines(&closure.solid) || closure.input("emission_color").is_some();
+        let sends = |input: Input| !matches!(input, Input::Constant(colour) if colour[..3].iter().all(|part| *part == 0.0));
+        let closure = |closure: &Closure| shines(&closure.solid) || closure.input("emission_color").is_some_and(sends);
         let material = |material: &Material| shines(&material.medium) || material.closures.iter().any(closure);
         shines(&self.atmosphere) || self.materials.iter().any(material)
     }

@@ -66,12 +66,26 @@ pub(in super::super) fn colours(
         let factors = sweep.of_source(source, watch, diagnostics)?;
         values.iter_mut().zip(factors).for_each(|(rounds, found)| rounds.iter_mut().zip(found).for_each(|(all, one)| all.push(one)));
     }
-    let spectra: Vec<Spectrum> = sources.into_iter().map(|source| source.spectrum).collect();
+    let spectra = without_absent(sources.into_iter().map(|source| source.spectrum).collect(), &mut values);
     let mixture = Arc::new(Mixture::new(bands, &spectra));
     let readings: Vec<Arc<ColourReading>> = values.iter().map(|rounds| Arc::new(ColourReading::of_rounds(&mixture, rounds))).collect();
     let readings = of_probe.into_iter().map(|place| readings[place].clone()).collect();
     let first = sweep.first.ok_or_else(|| Error::Internal("no band of wavelengths was measured".to_owned()))?;
     Ok(Found { readings, first })
+}
+
+/// Leaves out sources that bring nothing anywhere, whose points would be some of the spectrum's; one stays.
+fn without_absent(spectra: Vec<Spectrum>, values: &mut [Vec<Vec<Vec<f64>>>]) -> Vec<Spectrum> {
+    let brings = |source: usize| values.iter().flatten().any(|round| round[source].iter().any(|lux| *lux != 0.0));
+    let mut kept: Vec<bool> = (0..spectra.len()).map(brings).collect();
+    if let (false, Some(first)) = (kept.contains(&true), kept.first_mut()) {
+        *first = true;
+    }
+    for round in values.iter_mut().flatten() {
+        let mut kept = kept.iter();
+        round.retain(|_| kept.next().copied().unwrap_or(false));
+    }
+    spectra.into_iter().zip(kept).filter(|(_, kept)| *kept).map(|(spectrum, _)| spectrum).collect()
 }
 
 /// Measurements in all bands, for one source after the other.

@@ -26,8 +26,9 @@ fn check_spectra(scene: &Scene, of: &Origin, figures: &str, diagnostics: &mut Ve
     if without_spectra(scene).next().is_some() {
         diagnostics.push(Diagnostic::info(of, "sun and sky without a spectrum count as daylight D65 of their colour"));
     }
-    if scene.materials.iter().flat_map(|material| &material.closures).any(|closure| closure.input("emission_color").is_some()) {
-        let message = format!("surfaces that shine have no spectrum; in {figures} they count as daylight D65 of their colour");
+    if scene.shines_without_lights() {
+        let message =
+            format!("surfaces, fire and haze that shine have no spectrum; in {figures} they count as daylight D65 of their colour");
         diagnostics.push(Diagnostic::warning(of, message));
     }
     Ok(())
