@@ -64,7 +64,7 @@ def test_colour_at_a_point_and_on_a_grid(run, stage, tmp_path):
     path, picture = stage(), tmp_path / "plane.png"
     found = run("measure", path, "--at", "0.5,0,0", "--grid", "/Floor", "--spacing", "2", "--quantity", "cct", "-p", "256", "-o", picture, "--quiet")
     lines = found.stdout.splitlines()
-    assert "cct 4102.5" in lines[0] and " K ± " in lines[0] and "Ra 84.9" in lines[0] and "Duv -0.0006" in lines[0]
+    assert "cct 4102.5" in lines[0] and " K ± " in lines[0] and "Ra 84.8" in lines[0] and "Duv -0.0007" in lines[0]
     assert not any("U0" in line for line in lines) and any("average: 4102.5" in line for line in lines)
     assert picture.stat().st_size > 1000
     as_json = json.loads(run("measure", path, "--at", "0.5,0,0", "--quantity", "ra", "-p", "256", "--json", "--quiet").stdout)["meters"][0]

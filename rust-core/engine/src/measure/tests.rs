@@ -112,7 +112,7 @@ fn areas_without_a_side_are_errors_that_name_the_grid() {
 
 #[test]
 fn figures_are_those_of_the_points() {
-    let reading = |value| (Reading { value, standard_error: 3.0 }, None);
+    let reading = |value| Reading { value, standard_error: 3.0 }.into();
     let points = GridPoints {
         size: [3, 1],
         spacing: [1.0; 2],

@@ -49,12 +49,15 @@ impl FalseColourScale {
         Ok(Self { edges })
     }
 
-    /// About so many even steps of a round width (1, 2 or 5 times a power of ten) from the least to the greatest of the values, for quantities whose
-    /// 0 means nothing.
+    /// About so many even steps of a round width (1, 2 or 5 times a power of ten) from the least to the greatest of the values (99 % of many),
+    /// for quantities whose 0 means nothing.
     pub fn around(values: &[f32], steps: u32) -> Self {
-        let known = || values.iter().map(|value| f64::from(*value)).filter(|value| value.is_finite());
-        let [least, most] = [known().fold(f64::INFINITY, f64::min), known().fold(f64::NEG_INFINITY, f64::max)];
-        let [least, most] = if least <= most { [least, most] } else { [0.0, 1.0] };
+        let mut known: Vec<f32> = values.iter().copied().filter(|value| value.is_finite()).collect();
+        known.sort_by(f32::total_cmp);
+        // Half a per cent to either side are outliers.
+        let beyond = known.len() / 200;
+        let ends = known.get(beyond).zip(known.iter().rev().nth(beyond));
+        let [least, most] = ends.map_or([0.0, 1.0], |(least, most)| [*least, *most].map(f64::from));
         let span = (most - least).max(1e-3 * most.abs()).max(1e-6);
         let wanted = span / f64::from(steps.clamp(1, MOST_STEPS));
         let power = 10f64.powf(wanted.log10().floor());
