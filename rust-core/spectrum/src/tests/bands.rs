@@ -14,8 +14,8 @@ fn bands_hold_a_lamps_power() {
             sum / (width * luminance)
         };
         let peak = (0..bands.count()).map(mean).fold(0.0, f64::max);
-        for band in 0..bands.count() {
-            let found = bands.power(band, f64::from(relative[band]));
+        for (band, relative) in relative.iter().enumerate() {
+            let found = bands.power(band, f64::from(*relative));
             assert!((found - mean(band)).abs() < 1e-3 * peak, "{name}, band {band}: {found}, expected {}", mean(band));
         }
     }
@@ -33,7 +33,7 @@ fn mixtures_make_the_spectrum() {
         let [found, expected] = [&again, &lamp].map(|spectrum| crate::figures(spectrum).white.expect("white"));
         assert!((found.cct - expected.cct).abs() < 1e-6 && (found.rendering.ra - expected.rendering.ra).abs() < 1e-6, "{name}");
     }
-    let lamps = ["LED-B1", "HP1"].map(|name| fine(name));
+    let lamps = ["LED-B1", "HP1"].map(fine);
     let filter = |nm: f64| 0.2 + (nm - 380.0) / 800.0;
     let through: Vec<f64> = bands.centres().into_iter().map(filter).collect();
     let mixture = Mixture::new(bands, &lamps);
