@@ -6,7 +6,6 @@ use crate::{
     integral::{Integral, VISIBLE},
     observer::EFFICACY,
     source::Spectrum,
-    triples::power,
     upsampling::{REC709_TO_REC2020, upsampling},
     white,
 };
@@ -71,7 +70,7 @@ impl Bands {
     /// By band: a spectrum over D65, both of luminance 1. Zero where the spectrum has no light within 380 to 780 nm.
     pub fn tabulate(&self, spectrum: &Spectrum) -> Vec<f32> {
         let light = Integral::new(&spectrum.wavelengths_nm, |nm| {
-            let power = power(spectrum, nm);
+            let power = spectrum.at(nm);
             [power, power * white::observer(nm)[1]]
         });
         let luminance = light.all()[1];

@@ -2,7 +2,7 @@
 //!
 //! The factors are known in bands; sources keep their lines, however narrow.
 
-use crate::{bands::Bands, integral::Integral, observer::EFFICACY, source::Spectrum, triples::power, white};
+use crate::{bands::Bands, integral::Integral, observer::EFFICACY, source::Spectrum, white};
 
 /// Sources at the points of all of them together.
 #[derive(Debug)]
@@ -62,11 +62,11 @@ impl Mixture {
 
 /// A spectrum's W/nm for each lm within 380 to 780 nm at some wavelengths.
 fn per_lumen(spectrum: &Spectrum, wavelengths_nm: &[f64]) -> Vec<f64> {
-    let light = Integral::new(&spectrum.wavelengths_nm, |nm| [power(spectrum, nm) * white::observer(nm)[1]]);
+    let light = Integral::new(&spectrum.wavelengths_nm, |nm| [spectrum.at(nm) * white::observer(nm)[1]]);
     let lumens = EFFICACY * light.all()[0];
     // The ends belong to the spectrum here.
     let ends = [0, spectrum.wavelengths_nm.len() - 1];
     let end = |nm: f64| ends.into_iter().find(|end| spectrum.wavelengths_nm[*end] == nm);
-    let at = |nm: f64| end(nm).map_or_else(|| power(spectrum, nm), |end| spectrum.power[end]);
+    let at = |nm: f64| end(nm).map_or_else(|| spectrum.at(nm), |end| spectrum.power[end]);
     wavelengths_nm.iter().map(|nm| if lumens > 0.0 { at(*nm) / lumens } else { 0.0 }).collect()
 }

@@ -3,7 +3,7 @@
 use crate::{
     check,
     observer::{EFFICACY, cie_1931},
-    triples::power,
+    table::linear,
 };
 use gonio_formats::FormatError;
 
@@ -56,7 +56,7 @@ impl Spectrum {
 
     /// The power at a wavelength in nm: linear between the points, zero beyond them.
     pub fn at(&self, nm: f64) -> f64 {
-        power(self, nm)
+        linear(&self.wavelengths_nm, &self.power, nm)
     }
 
     /// Lumens of a power in W/nm, or lux of an irradiance in W/(m² nm).

@@ -52,3 +52,13 @@ impl Table {
         std::array::from_fn(|column| self.at(column, nm))
     }
 }
+
+/// A curve's value at a wavelength in nm: linear between its points, zero beyond them.
+pub(crate) fn linear(wavelengths: &[f64], power: &[f64], nm: f64) -> f64 {
+    let above = wavelengths.partition_point(|point| *point < nm);
+    if above == 0 || above == wavelengths.len() {
+        return 0.0;
+    }
+    let t = (nm - wavelengths[above - 1]) / (wavelengths[above] - wavelengths[above - 1]);
+    power[above - 1] + t * (power[above] - power[above - 1])
+}

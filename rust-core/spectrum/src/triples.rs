@@ -63,7 +63,7 @@ impl Triples {
     /// spectrum's linear Rec.709 at a luminance of 1. Zero where the spectrum has no light within 380 to 780 nm.
     pub fn tabulate(&self, spectrum: &Spectrum) -> Vec<[f32; 3]> {
         let light = Integral::new(&spectrum.wavelengths_nm, |nm| {
-            let [x, y, z] = white::observer(nm).map(|observed| observed * power(spectrum, nm));
+            let [x, y, z] = white::observer(nm).map(|observed| observed * spectrum.at(nm));
             [y, x + y + z]
         });
         let daylight = Integral::new(&[], |nm| [weight(nm)]);
@@ -84,19 +84,4 @@ impl Triples {
         };
         self.cells().map(|cell| cell.map(mean)).collect()
     }
-}
-
-/// A spectrum's power at a wavelength in nm: linear between its points, zero beyond them.
-pub(crate) fn power(spectrum: &Spectrum, nm: f64) -> f64 {
-    linear(&spectrum.wavelengths_nm, &spectrum.power, nm)
-}
-
-/// A curve's value at a wavelength in nm: linear between its points, zero beyond them.
-pub(crate) fn linear(wavelengths: &[f64], power: &[f64], nm: f64) -> f64 {
-    let above = wavelengths.partition_point(|point| *point < nm);
-    if above == 0 || above == wavelengths.len() {
-        return 0.0;
-    }
-    let t = (nm - wavelengths[above - 1]) / (wavelengths[above] - wavelengths[above - 1]);
-    power[above - 1] + t * (power[above] - power[above - 1])
 }

@@ -1,7 +1,7 @@
 //! Response curves of cameras and other sensors: a table of wavelengths with a column for each channel.
 
 use super::{LONGEST, decoded, quoted};
-use crate::{check::MOST, triples::linear};
+use crate::{check::MOST, table::linear};
 use gonio_formats::FormatError;
 
 /// The most channels of a sensor.
