@@ -2,6 +2,7 @@
 
 use super::{
     area::{Area, Figure},
+    colour::{beside, is_of_colour},
     object::{Found, error, number, objects, text},
 };
 use crate::{estimate::Estimate, note::Note, plan::Plan, unit::Unit};
@@ -31,6 +32,7 @@ fn meter(of: &Map<String, Value>, file: usize) -> Found<Area> {
     figure.aliases = vec!["mean".to_owned(), "value".to_owned()];
     figure.notes = without_error(value).into_iter().chain(left_out(of.get("ugr_coverage"))).collect();
     area.figures.push(figure);
+    area.figures.extend(beside(&quantity, of)?);
     if let Some(as_in_tables) = of.get("ugr_as_in_tables").and_then(Value::as_object) {
         area.figures.push(Figure::new("ugr_as_in_tables", reading(as_in_tables)?, Unit::plain()));
     }
@@ -56,11 +58,13 @@ fn grid(of: &Map<String, Value>, file: usize) -> Found<Area> {
         let of = Some(quantity.clone());
         Figure { aliases, of, notes, plan, ..Figure::new(key, value, unit.clone()) }
     };
-    let low = || least.map(Estimate::relative).filter(|share| *share > NOISY).map(Note::LeastIsLow);
-    let high = || greatest.map(Estimate::relative).filter(|share| *share > NOISY).map(Note::GreatestIsHigh);
+    let glare = quantity == "ugr";
+    let amount = !glare && !is_of_colour(&quantity);
+    let low = || least.filter(|_| !is_of_colour(&quantity)).map(Estimate::relative).filter(|share| *share > NOISY).map(Note::LeastIsLow);
+    let high =
+        || greatest.filter(|_| !is_of_colour(&quantity)).map(Estimate::relative).filter(|share| *share > NOISY).map(Note::GreatestIsHigh);
     let missing = || of.get("values").and_then(Value::as_array).map(|values| values.iter().filter(|value| value.is_null()).count());
     let missing = missing().filter(|count| *count > 0).map(Note::Missing);
-    let glare = quantity == "ugr";
     let (of_mean, of_greatest) =
         if glare { (vec![], vec!["max", "greatest", "ugr"]) } else { (vec![quantity.as_str()], vec!["max", "greatest"]) };
     let of_mean: Vec<&str> = of_mean.into_iter().chain(["average", "em"]).collect();
@@ -69,7 +73,7 @@ fn grid(of: &Map<String, Value>, file: usize) -> Found<Area> {
         add("minimum", &["min", "least"], least, &own, low().into_iter().chain(missing).collect()),
         add("maximum", &of_greatest, greatest, &own, high().into_iter().chain(worst_left_out(of)).collect()),
     ];
-    if !glare {
+    if amount {
         figures.push(add("uniformity", &["u0", "uo", "uniformity_u0"], ratio(least, mean), &Unit::share(), low().into_iter().collect()));
         let both = low().into_iter().chain(high()).collect();
         figures.push(add("diversity", &["ud", "diversity_ud"], ratio(least, greatest), &Unit::share(), both));
@@ -81,7 +85,7 @@ fn grid(of: &Map<String, Value>, file: usize) -> Found<Area> {
 fn unit(of: &Map<String, Value>, quantity: &str) -> Unit {
     match of.get("unit").and_then(Value::as_str).unwrap_or_default() {
         "" => Unit::plain(),
-        sign if quantity == "ugr" => Unit::of(sign),
+        sign if quantity == "ugr" || is_of_colour(quantity) => Unit::of(sign),
         sign => Unit::light(sign),
     }
 }

@@ -2,6 +2,7 @@
 
 mod annual;
 mod area;
+mod colour;
 mod grids;
 mod modelling;
 mod object;

@@ -31,6 +31,34 @@ fn grids_and_meters() {
     }
 }
 
+/// A meter of one figure of colour has all of them; none is light, which falls as lamps age, and grids have no uniformity of them.
+#[test]
+fn colour_of_light() {
+    let mut file = meter("desk", "ra", "", json!(84.8));
+    file["meters"][0]["colour"] = json!({ "cct": 4102.5, "duv": -0.0007, "ra": 84.8, "rf": 85.3, "rg": null, "melanopic_edi_lx": 250.0,
+        "standard_errors": { "cct": 2.0, "duv": 0.0001, "ra": 0.2, "rf": 0.3, "rg": null, "melanopic_edi_lx": 1.0 } });
+    for (keys, expected) in
+        [("ra", 84.8), ("rf", 85.3), ("cct'; unit = 'K", 4102.5), ("melanopic-edi'; unit = 'lx'; maintenance_factor = 0.8; of = '", 200.0)]
+    {
+        let keys = format!("area = 'desk'; quantity = '{keys}'").replace("; of = ''", "");
+        assert!((value(&keys, &[file.clone()]).0 - expected).abs() < 1e-9, "{keys}");
+    }
+    assert_eq!(
+        one("area = 'desk'; quantity = 'rg'; at_least = 90", &[file.clone()]).expect("a sheet").rows[0].verdict,
+        Verdict::NotMeasured
+    );
+    let factor =
+        one("area = 'desk'; quantity = 'cct'; at_least = 4000; maintenance_factor = 0.8", &[file]).expect_err("no light").to_string();
+    assert!(factor.contains("not proportional to light"), "{factor}");
+    let mut grid = grid();
+    (grid["grids"][0]["quantity"], grid["grids"][0]["unit"]) = (json!("cct"), json!("K"));
+    assert!((value("area = 'Desk'; quantity = 'min'; unit = 'K'", &[grid.clone()]).0 - 400.0).abs() < 1e-12);
+    assert_eq!(
+        one("area = 'Desk'; quantity = 'uniformity'; at_least = 0.4", &[grid]).expect("a sheet").rows[0].verdict,
+        Verdict::NotMeasured
+    );
+}
+
 #[test]
 fn years() {
     for (keys, expected, error) in [
