@@ -55,7 +55,9 @@ class GONIO_OT_measure_grids(Beside, bpy.types.Operator):
         measuring.latest.grids = {reading.name: reading for reading in found.grids}
         _write_text("Gonio grids.csv", found.csv())
         for name, reading in measuring.latest.grids.items():
-            write_image(f"{name} ({reading.unit or reading.quantity})", reading.picture(max=context.scene.gonio.false_color_max or None))
+            # The scene's scale is one of light.
+            most = context.scene.gonio.false_color_max if reading.quantity in measuring.AMOUNTS else 0.0
+            write_image(f"{name} ({reading.unit or reading.quantity})", reading.picture(max=most or None))
         count = len(found.grids)
         self.report({"INFO"}, f"{count} grid{'s' * (count > 1)} measured; values are in the text 'Gonio grids.csv'")
         return {"FINISHED"}
