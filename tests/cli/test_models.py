@@ -164,3 +164,19 @@ def test_commands_are_told_and_never_run(run, write, tmp_path):
 def test_what_only_stages_have(run, write, option):
     done = run("render", write(model(box("black"))), *option, check=False)
     assert done.returncode == 1 and "it is for USD stages" in done.stderr
+
+
+def test_sensor_grids_are_told_together(run, write):
+    """Points of one grid have a mean, a least and a greatest; a single one has none."""
+    sensors = [((x, 2.0, 1.5), (0, 0, 1)) for x in (1.5, 2.0, 2.5)]
+    path = write(model((), sensors))
+    found = json.loads(run("measure", path, "--json", "--quiet", "--spp", 64).stdout)
+    values = [meter["value"] for meter in found["meters"]]
+    grid = found["sensor_grids"][0]
+    assert (grid["name"], grid["quantity"], grid["unit"], grid["points"]) == ("grid", "illuminance", "lx", 3)
+    assert grid["average"]["value"] == pytest.approx(sum(values) / 3) and grid["min"]["value"] == min(values)
+    assert grid["uniformity_u0"] == pytest.approx(min(values) / (sum(values) / 3))
+    text = run("measure", path, "--spp", "64", "--quiet").stdout
+    assert "grid: illuminance, 3 points together" in text and "U0" in text
+    alone = json.loads(run("measure", write(model((), sensors[:1])), "--json", "--quiet", "--spp", 64).stdout)
+    assert alone["sensor_grids"] == []

@@ -36,15 +36,20 @@ pub(super) fn add(arguments: &DaylightArguments, loaded: &mut Loaded, is_strict:
     Ok(())
 }
 
-/// What was asked for, and what makes one doubt it.
-fn read(arguments: &DaylightArguments, text: &str) -> Result<(Daylight, Vec<String>)> {
+/// A place and a time as `--sun` takes them.
+pub(super) fn place_and_time(text: &str, elevation_m: f64) -> Result<(Place, Moment)> {
     let parts: Vec<&str> = text.splitn(3, ',').collect();
     let [latitude, longitude, time] = parts[..] else {
         return Err(Error::setting("sun", format!("'{text}' was found, expected latitude, longitude and time, separated by commas")));
     };
-    let place =
-        Place { latitude_deg: number("sun", latitude)?, longitude_deg: number("sun", longitude)?, elevation_m: arguments.elevation };
-    let mut daylight = Daylight::new(place, Moment::parse(time)?);
+    let place = Place { latitude_deg: number("sun", latitude)?, longitude_deg: number("sun", longitude)?, elevation_m };
+    Ok((place, Moment::parse(time)?))
+}
+
+/// What was asked for, and what makes one doubt it.
+fn read(arguments: &DaylightArguments, text: &str) -> Result<(Daylight, Vec<String>)> {
+    let (place, moment) = place_and_time(text, arguments.elevation)?;
+    let mut daylight = Daylight::new(place, moment);
     daylight.model = SkyModel::parse(&arguments.sky)?;
     daylight.turbidity = arguments.turbidity;
     daylight.ground = arguments.ground;

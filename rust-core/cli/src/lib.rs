@@ -48,6 +48,7 @@ mod share;
 mod snapshot;
 mod spectrum;
 mod stage;
+mod sunlight;
 mod verdict;
 mod view;
 mod volume;
@@ -109,6 +110,7 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
         Command::Relight(options) => py.detach(|| relight::relight(&options)),
         Command::Photometry(options) => photometry::photometry(&options),
         Command::Spectrum(options) => spectrum::spectrum(&options),
+        Command::Sunlight(options) => sunlight::sunlight(py, &options, &INTERRUPTED),
         Command::Sensor(options) => py.detach(|| sensor::sensor(&options)),
         Command::Bsdf(options) => bsdf::bsdf(py, &options, &INTERRUPTED),
         Command::Measure(options) => measure::measure(py, &options, &INTERRUPTED),

@@ -17,7 +17,8 @@ use gonio::{
     Error, Result,
     compile::CompiledScene,
     measure::{
-        ColourReading, GridReading, MOST_BOUNCES, Measurements, MeterReading, Reading, Watch, csv, measure as evaluate, value_picture,
+        ColourReading, GridReading, MOST_BOUNCES, Measurements, MeterReading, Reading, SensorGrid, Summary, Watch, csv,
+        measure as evaluate, value_picture,
     },
     output::FalseColour,
     scene::{Integrator, Measurand, Meter, Origin, Scene},
@@ -104,6 +105,7 @@ fn run(options: &MeasureOptions, loaded: Loaded, interrupted: &'static AtomicBoo
         print(&as_json(&found).to_string());
     } else {
         found.meters.iter().for_each(|meter| print(&meter_line(meter)));
+        SensorGrid::all(&found.meters).iter().flat_map(sensor_grid_lines).for_each(|line| print(&line));
         found.grids.iter().flat_map(grid_lines).for_each(|line| print(&line));
     }
     Ok(0)
@@ -151,7 +153,7 @@ fn points(options: &MeasuringArguments, measurand: Measurand, axis: UpAxis) -> R
     options.at.iter().map(meter).collect()
 }
 
-fn triple(name: &str, text: &str) -> Result<[f64; 3]> {
+pub(super) fn triple(name: &str, text: &str) -> Result<[f64; 3]> {
     let numbers = text.split(',').map(|part| daylight::number(name, part)).collect::<Result<Vec<f64>>>()?;
     let wrong = |_| Error::setting(name, format!("'{text}' was found, expected three numbers separated by commas"));
     numbers.try_into().map_err(wrong)
@@ -179,7 +181,8 @@ fn draw(options: &MeasureOptions, found: &Measurements, path: &Path) -> Result<(
     Ok(())
 }
 
-fn named(path: &Path, grid: &GridReading, number: usize) -> PathBuf {
+/// The name of one of several grids' pictures.
+pub(super) fn named(path: &Path, grid: &GridReading, number: usize) -> PathBuf {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let prim = grid.origin.name.rsplit('/').next().unwrap_or_default();
     path.with_file_name(format!("{stem}.{number}-{prim}.png"))
@@ -213,27 +216,32 @@ fn spaced(measurand: Measurand) -> String {
     if unit.is_empty() { String::new() } else { format!(" {unit}") }
 }
 
-fn grid_lines(grid: &GridReading) -> Vec<String> {
-    let (unit, summary) = (spaced(grid.measurand), &grid.summary);
-    let [columns, rows] = grid.size;
-    let [along, across] = grid.spacing;
-    let places = places(grid.measurand, [2; 2]);
+/// The figures of a grid's points.
+fn summary_lines(measurand: Measurand, summary: &Summary) -> Vec<String> {
+    let (unit, places) = (spaced(measurand), places(measurand, [2; 2]));
     let figure = |name: &str, reading: &Reading| format!("  {name}: {}", figure(reading, places, &unit));
-    let mut lines = vec![
-        format!(
-            "{}: {}, {columns} × {rows} points ({} measured), {along:.3} × {across:.3} m apart",
-            grid.origin,
-            grid.measurand.name(),
-            summary.points
-        ),
-        figure("average", &summary.average),
-        figure("least", &summary.min),
-        figure("greatest", &summary.max),
-    ];
-    if grid.measurand.is_amount() {
+    let mut lines = vec![figure("average", &summary.average), figure("least", &summary.min), figure("greatest", &summary.max)];
+    if measurand.is_amount() {
         lines.push(format!("  U0 (least / average): {:.3}", summary.uniformity()));
         lines.push(format!("  Ud (least / greatest): {:.3}", summary.diversity()));
     }
+    lines
+}
+
+fn sensor_grid_lines(grid: &SensorGrid) -> Vec<String> {
+    let head = format!("{}: {}, {} points together", grid.name, grid.measurand.name(), grid.summary.points);
+    std::iter::once(head).chain(summary_lines(grid.measurand, &grid.summary)).collect()
+}
+
+fn grid_lines(grid: &GridReading) -> Vec<String> {
+    let ([columns, rows], [along, across]) = (grid.size, grid.spacing);
+    let mut lines = vec![format!(
+        "{}: {}, {columns} × {rows} points ({} measured), {along:.3} × {across:.3} m apart",
+        grid.origin,
+        grid.measurand.name(),
+        grid.summary.points
+    )];
+    lines.extend(summary_lines(grid.measurand, &grid.summary));
     lines.extend(grid.rating_note().map(|note| format!("  {note}")));
     lines
 }
@@ -276,8 +284,22 @@ fn as_json(found: &Measurements) -> Value {
             "values": grid.points.iter().map(|point| point.map(|(_, reading)| reading.value)).collect::<Vec<_>>(),
         })
     };
+    let together = |grid: &SensorGrid| {
+        json!({
+            "name": grid.name,
+            "quantity": grid.measurand.name(),
+            "unit": grid.measurand.unit(),
+            "points": grid.summary.points,
+            "average": reading(&grid.summary.average),
+            "min": reading(&grid.summary.min),
+            "max": reading(&grid.summary.max),
+            "uniformity_u0": grid.summary.uniformity(),
+            "diversity_ud": grid.summary.diversity(),
+        })
+    };
     json!({
         "meters": found.meters.iter().map(meter).collect::<Vec<_>>(),
+        "sensor_grids": SensorGrid::all(&found.meters).iter().map(together).collect::<Vec<_>>(),
         "grids": found.grids.iter().map(grid).collect::<Vec<_>>(),
     })
 }

@@ -19,6 +19,7 @@ pub mod render;
 pub mod sample_bsdf;
 pub mod sky;
 pub mod spectral_picture;
+pub mod sunlight;
 pub mod threads;
 
 pub use gonio_accel as accel;

@@ -34,6 +34,7 @@ mod scene;
 mod settings;
 mod spectral_picture;
 mod spectrum;
+mod sunlight;
 mod table;
 mod usd;
 mod view;
@@ -90,6 +91,8 @@ mod _gonio {
     use crate::spectral_picture::{SpectralPicture, spectral_picture};
     #[pymodule_export]
     use crate::spectrum::{colour_reflectance, illuminant, read_spectrum, spectrum_figures};
+    #[pymodule_export]
+    use crate::sunlight::sunlight;
     #[pymodule_export]
     use crate::usd::{_files_of_stage, _main, _scene, _view_scene, load_usd};
 

@@ -25,6 +25,7 @@ mod report;
 mod road;
 mod spectrum;
 mod stage;
+mod sunlight;
 mod texture;
 mod verdict;
 mod view;
@@ -54,6 +55,7 @@ pub(super) use report::ReportOptions;
 pub(super) use road::RoadOptions;
 pub(super) use spectrum::{SensorOptions, SpectrumOptions};
 pub(super) use stage::{ComplexityArgument, StageArguments};
+pub(super) use sunlight::SunlightOptions;
 pub(super) use texture::TextureArguments;
 pub(super) use verdict::VerdictOptions;
 pub(super) use view::{ShowArgument, ViewOptions};
@@ -70,6 +72,7 @@ use measure::MEASURE_EXAMPLES;
 use report::REPORT_EXAMPLES;
 use road::ROAD_EXAMPLES;
 use spectrum::{SENSOR_EXAMPLES, SPECTRUM_EXAMPLES};
+use sunlight::SUNLIGHT_EXAMPLES;
 use verdict::VERDICT_EXAMPLES;
 use view::VIEW_EXAMPLES;
 
@@ -130,6 +133,11 @@ pub(super) enum Command {
     /// daylight by name. Several of them make a table. A figure that is undefined for a light, or outside its standard's range, says so.
     #[command(after_long_help = SPECTRUM_EXAMPLES)]
     Spectrum(SpectrumOptions),
+    /// Say when the sun shines on points of a USD stage on a day, and for how long (sunlight exposure of EN 17037, sun on gardens and roofs).
+    ///
+    /// The sun goes over the sky minute by minute. What stands before it hides it; thin panes let it through. Hours are those in which any of its disc is seen.
+    #[command(after_long_help = SUNLIGHT_EXAMPLES)]
+    Sunlight(Box<SunlightOptions>),
     /// See a picture by wavelength as a camera or another sensor does, by its response curves.
     ///
     /// Takes what 'gonio render --by-wavelength' writes and a table of the sensor's channels; writes an EXR file with a channel for each. 'gonio falsecolor' shows

@@ -24,11 +24,11 @@ mod watch;
 #[cfg(test)]
 mod tests;
 
-pub use coefficients::{DaylightCoefficients, ROUNDS, SkyTask, daylight_coefficients};
+pub use coefficients::{DaylightCoefficients, ROUNDS, SkyTask, daylight_coefficients, sun_coefficients};
 pub use csv::csv;
 pub use picture::value_picture;
 pub use points::{GridPoints, MOST_POINTS};
-pub use reading::{GridReading, MeterReading, Reading, SmallSources, Summary};
+pub use reading::{GridReading, MeterReading, Reading, SensorGrid, SmallSources, Summary};
 pub use room::Room;
 pub use spectral::ColourReading;
 pub use watch::{MOST_BOUNCES, Watch};

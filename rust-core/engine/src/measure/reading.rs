@@ -169,6 +169,38 @@ fn ratio(part: f64, whole: f64) -> f64 {
     if whole > 0.0 { part / whole } else { 0.0 }
 }
 
+/// The meters of a model's sensor grid together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SensorGrid {
+    /// The grid's name: meters are called by it, a slash and their numbers.
+    pub name: String,
+    /// What is measured.
+    pub measurand: Measurand,
+    /// The figures.
+    pub summary: Summary,
+}
+
+impl SensorGrid {
+    /// Those of meters, in the order of their first ones; single meters are none.
+    pub fn all(meters: &[MeterReading]) -> Vec<Self> {
+        let mut found: Vec<(&str, Measurand, Vec<Reading>)> = Vec::new();
+        for MeterReading { meter, reading, .. } in meters {
+            let Some((grid, number)) = meter.origin.name.rsplit_once('/') else { continue };
+            if grid.is_empty() || number.parse::<u32>().is_err() {
+                continue;
+            }
+            match found.iter_mut().find(|(name, measurand, _)| *name == grid && *measurand == meter.measurand) {
+                Some((.., readings)) => readings.push(*reading),
+                None => found.push((grid, meter.measurand, vec![*reading])),
+            }
+        }
+        let several = found.into_iter().filter(|(.., readings)| readings.len() > 1);
+        several
+            .map(|(name, measurand, readings)| Self { name: name.to_owned(), measurand, summary: Summary::new(readings.into_iter()) })
+            .collect()
+    }
+}
+
 /// What a grid shows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GridReading {
@@ -214,6 +246,12 @@ impl GridReading {
             small: found.iter().filter_map(|found| found.rated.map(|(_, small)| small)).collect(),
             colours: found.iter().filter_map(|found| found.colour.clone()).collect(),
         }
+    }
+
+    /// A grid that shows other values than what it measures, one for each point that there is.
+    pub fn of_values(grid: &Grid, points: GridPoints, values: &[f64]) -> Self {
+        let found: Vec<Found> = values.iter().map(|value| Found::from(Reading { value: *value, standard_error: 0.0 })).collect();
+        Self::new(grid, points, &found)
     }
 
     /// The figures by CIE 117 alone, as UGR tables have them; none where no source counts as small, or one is a point.

@@ -53,6 +53,7 @@ from ._gonio import (
     sky_table,
     spectral_picture,
     spectrum_figures,
+    sunlight,
     ugr_table,
 )
 from .oidn import denoise
@@ -117,5 +118,6 @@ __all__ = [
     "sky_table",
     "spectral_picture",
     "spectrum_figures",
+    "sunlight",
     "ugr_table",
 ]

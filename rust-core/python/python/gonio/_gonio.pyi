@@ -70,6 +70,7 @@ __all__ = [
     "read_spectrum",
     "spectral_picture",
     "spectrum_figures",
+    "sunlight",
     "__version__",
     "simd_level",
     "surface_parameters",
@@ -946,6 +947,20 @@ def spectral_picture(
     scene: Scene, *, band: float = 5.0, cancelled: Callable[[], bool] | None = None
 ) -> SpectralPicture: ...
 def spectrum_figures(wavelengths_nm: Sequence[float], power: Sequence[float]) -> dict[str, Any]: ...
+def sunlight(
+    scene: Scene,
+    latitude: float,
+    longitude: float,
+    time: str,
+    points: Sequence[tuple[Sequence[float], Sequence[float]]],
+    *,
+    up: str = "Z",
+    north: float = 0.0,
+    elevation: float = 0.0,
+    least_elevation: float = 0.0,
+    step: float = 1.0,
+    cancelled: Callable[[], bool] | None = None,
+) -> dict[str, Any]: ...
 def merge(paths: Sequence[str | PathLike[str]]) -> Film: ...
 def load_usd(
     path: str | PathLike[str],

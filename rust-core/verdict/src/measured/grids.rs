@@ -1,4 +1,4 @@
-//! What `gonio measure` prints: meters and grids.
+//! What `gonio measure` prints: meters, sensor grids of models, and grids.
 
 use super::{
     area::{Area, Figure},
@@ -15,7 +15,9 @@ const NOISY: f64 = 0.05;
 pub(super) fn read(whole: &Map<String, Value>, file: usize) -> Found<Vec<Area>> {
     let meters = objects(whole, "meters")?.into_iter().map(|of| meter(of, file));
     let grids = objects(whole, "grids")?.into_iter().map(|of| grid(of, file));
-    meters.chain(grids).collect()
+    // Files of before have none.
+    let together = if whole.contains_key("sensor_grids") { objects(whole, "sensor_grids")? } else { Vec::new() };
+    meters.chain(together.into_iter().map(|of| grid(of, file))).chain(grids).collect()
 }
 
 /// A figure's name as requirements write it: `daylight_factor`.

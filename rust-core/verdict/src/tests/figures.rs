@@ -59,6 +59,22 @@ fn colour_of_light() {
     );
 }
 
+/// A model's sensors have figures one by one and together.
+#[test]
+fn sensor_grids() {
+    let mut file = meter("desks/0", "illuminance", "lx", json!(400.0));
+    file["sensor_grids"] = json!([{ "name": "desks", "quantity": "illuminance", "unit": "lx", "points": 2,
+        "average": { "value": 500.0, "standard_error": 2.0 }, "min": { "value": 400.0, "standard_error": 3.0 },
+        "max": { "value": 600.0, "standard_error": 3.0 } }]);
+    for (keys, expected) in [
+        ("area = 'desks'; quantity = 'mean'", 500.0),
+        ("area = 'desks'; quantity = 'uniformity'", 0.8),
+        ("area = 'desks/0'; quantity = 'mean'", 400.0),
+    ] {
+        assert!((value(keys, &[file.clone()]).0 - expected).abs() < 1e-12, "{keys}");
+    }
+}
+
 #[test]
 fn years() {
     for (keys, expected, error) in [

@@ -77,6 +77,10 @@ impl std::fmt::Debug for SkyTask<'_> {
 const BY_PATCHES: &str = "the sun's light by mirrors and clear solid glass is spread over patches of the sky, and is no direct light; glaze windows with \
     thin panes, which it goes straight through";
 
+/// Said where clear glass hides what stands straight behind it.
+const HIDDEN: &str =
+    "clear solid glass and mirrors count as what hides the sun; glaze windows with thin panes, which it goes straight through";
+
 /// Finds the coefficients of points that lie on planes, with the scene's settings: `samples` paths a point. Its lamps are dark, its skies and suns give
 /// way to the patches.
 ///
@@ -93,16 +97,13 @@ pub fn daylight_coefficients(
         let problem = format!("daylight coefficients are of illuminances, {} was asked for", other.measurand.name());
         return Err(Error::scene(&other.origin, problem));
     }
-    let probes = points.iter().map(Probe::new).collect::<Result<Vec<_>>>()?;
-    let scene = under_even_sky(scene);
-    let compiled = Arc::new(compile(&scene, watch.previous, watch.cancel)?);
-    let mut diagnostics = compiled.diagnostics.clone();
-    if let (true, Some(first)) = (light_paths_measure::bends_light(&compiled), points.first()) {
+    let laid = Laid::out(scene, points, watch)?;
+    let (settings, mut diagnostics) = (laid.settings, laid.compiled.diagnostics.clone());
+    if let (true, Some(first)) = (light_paths_measure::bends_light(&laid.compiled), points.first()) {
         diagnostics.push(Diagnostic::warning(&first.origin, BY_PATCHES));
     }
-    let (sensors, _) = placed(&compiled, &probes);
-    let tracing = Tracing { scene: &compiled, sensors: &sensors, settings: &unlimited(&scene.settings), execution, task };
-    let work = Work { done: AtomicU64::new(0), rays: AtomicU64::new(0), cancel: AtomicBool::new(false) };
+    let tracing = Tracing { scene: &laid.compiled, sensors: &laid.sensors, settings: &settings, execution, task };
+    let work = Work::new();
     let total = rounds::batches(&tracing) + straight::batches(&tracing);
     let found = work.watched(total, tracing.settings.samples, watch, || {
         let [mut all, scattered] = rounds::trace(&tracing, &work)?;
@@ -113,6 +114,47 @@ pub fn daylight_coefficients(
     });
     let (all, scattered, suns) = found?;
     Ok(DaylightCoefficients { all, scattered, suns, diagnostics })
+}
+
+/// What comes straight from the discs of suns alone, seen under an angle in radians, `up` being the zenith: points × suns, lx for 1 cd/m²; and what differs
+/// from what was asked for. Thin panes let it through.
+///
+/// # Errors
+/// What compiling finds, cancellation.
+pub fn sun_coefficients(
+    scene: &Scene,
+    points: &[Meter],
+    (suns, sun_angle, up): (&[[f64; 3]], f64, [f64; 3]),
+    execution: Execution,
+    watch: &mut Watch<'_>,
+) -> Result<(Vec<f32>, Vec<Diagnostic>)> {
+    let laid = Laid::out(scene, points, watch)?;
+    let task = SkyTask { patches: 0, patch_of: &|_| 0, place: &|_, _| None, solid_angle: &|_| 0.0, suns, sun_angle, up };
+    let tracing = Tracing { scene: &laid.compiled, sensors: &laid.sensors, settings: &laid.settings, execution, task: &task };
+    let work = Work::new();
+    let found = work.watched(straight::batches(&tracing), 1, watch, || straight::suns(&tracing, &work))?;
+    let mut diagnostics = laid.compiled.diagnostics.clone();
+    if let (true, Some(first)) = (light_paths_measure::bends_light(&laid.compiled), points.first()) {
+        diagnostics.push(Diagnostic::warning(&first.origin, HIDDEN));
+    }
+    Ok((found, diagnostics))
+}
+
+/// Points in a scene under an even sky.
+struct Laid {
+    compiled: Arc<CompiledScene>,
+    sensors: Vec<Sensor>,
+    settings: Settings,
+}
+
+impl Laid {
+    fn out(scene: &Scene, points: &[Meter], watch: &Watch<'_>) -> Result<Self> {
+        let probes = points.iter().map(Probe::new).collect::<Result<Vec<_>>>()?;
+        let scene = under_even_sky(scene);
+        let compiled = Arc::new(compile(&scene, watch.previous, watch.cancel)?);
+        let (sensors, _) = placed(&compiled, &probes);
+        Ok(Self { compiled, sensors, settings: unlimited(&scene.settings) })
+    }
 }
 
 /// The scene with an even sky of 1 cd/m² for its only light; portals stay, which only tell where to look for it.
@@ -141,6 +183,10 @@ struct Work {
 }
 
 impl Work {
+    fn new() -> Self {
+        Self { done: AtomicU64::new(0), rays: AtomicU64::new(0), cancel: AtomicBool::new(false) }
+    }
+
     /// Does so many pieces of work on threads of their own, each with a workspace, in any order.
     fn share_out(&self, tracing: &Tracing<'_>, pieces: usize, piece: impl Fn(usize, &mut Workspace) + Sync) -> Result<()> {
         let next = AtomicUsize::new(0);
