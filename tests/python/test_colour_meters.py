@@ -223,6 +223,23 @@ def test_a_bulb_of_clear_glass():
     assert lux.value > 0 and colour["illuminance_lx"] == pytest.approx(lux.value, abs=ERRORS * error)
 
 
+def test_where_light_has_no_room_to_be_counted_there_is_no_figure():
+    """A meter in a joint of two walls gets light by glass, and has no room for the disc that it is counted on: no figure, and no 0 lx either."""
+    made = gonio.Scene()
+    glass = made.add_material(transmission_weight=1.0, specular_ior=1.5, specular_roughness=0.0)
+    made.add_instance(made.add_mesh(*ball(0.2)[:1], ball(0.2)[1][:, ::-1].copy()), [glass], transform=at(0, 0, 3))
+    made.add_instance(made.add_mesh(*ball(0.19)), [glass], transform=at(0, 0, 3))
+    made.add_light("sphere", (1e5,) * 3, radius=0.01, spectrum="LED-B3", transform=at(0, 0, 3))
+    wall = made.add_mesh(np.array([[0, -1, 0], [0, 1, 0], [0, 1, 1], [0, -1, 1]], np.float32), np.array([[0, 1, 2], [0, 2, 3]], np.int32))
+    made.add_instance(wall, [made.add_material(base_color=(0, 0, 0), specular_weight=0.0)])
+    for quantity in ("illuminance", "cct"):
+        made.add_meter((0, 0, 0), quantity=quantity)
+    measured = gonio.measure(made, samples=16)
+    assert all(np.isnan(reading.value) for reading in measured.meters)
+    assert np.isnan(measured.meters[1].colour["illuminance_lx"])
+    assert sum("disc about the meter" in message for _, message in measured.diagnostics) == 2
+
+
 def test_a_lamp_in_coloured_haze():
     """Media are seen by wavelength: what absorption leaves of a lamp's light, by Beer and Lambert."""
     absorption = (0.05, 0.2, 0.6)

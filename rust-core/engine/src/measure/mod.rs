@@ -200,7 +200,7 @@ fn tell_unknown(meters: &[Meter], readings: &[Found], diagnostics: &mut Vec<Diag
         }
         told.push(meter);
         let [x, y, z] = meter.position;
-        let problem = match &found.colour {
+        let problem = match found.colour.as_ref().filter(|colour| colour.is_known()) {
             Some(colour) => colour.why_undefined(),
             None => "light comes by mirrors or clear glass, and is counted on a disc about the meter, for which a surface leaves no room; move it off"
                 .to_owned(),

@@ -23,7 +23,7 @@ use crate::{
 };
 use gonio_simd::Execution;
 use gonio_spectrum::{Bands, Mixture, Spectrum, bands_of};
-use std::{collections::HashMap, sync::Arc};
+use std::{collections::HashMap, sync::Arc, time::Instant};
 
 /// The bands' width, nm: walls, air and glass change light evenly within.
 const BAND_NM: f64 = 10.0;
@@ -58,8 +58,15 @@ pub(in super::super) fn colours(
     let bands = bands_of(BAND_NM).ok_or_else(|| Error::Internal(format!("no bands of {BAND_NM} nm")))?;
     let sources = by_spectrum(scene)?;
     let (places, of_probe) = distinct(probes);
-    let mut sweep =
-        Sweep { bands, places: &places, execution, steps: (sources.len() * bands.count()) as u32 * ROUNDS, done: 0, first: None };
+    let mut sweep = Sweep {
+        bands,
+        places: &places,
+        execution,
+        steps: (sources.len() * bands.count()) as u32 * ROUNDS,
+        done: 0,
+        start: Instant::now(),
+        first: None,
+    };
     // By place, round and source, the lx of all bands.
     let mut values = vec![vec![Vec::with_capacity(sources.len()); ROUNDS as usize]; places.len()];
     for source in &sources {
@@ -96,6 +103,7 @@ struct Sweep<'a> {
     /// How many measurements there will be, and have been.
     steps: u32,
     done: u32,
+    start: Instant,
     /// What stands around the first.
     first: Option<Sensed>,
 }
@@ -119,9 +127,11 @@ impl Sweep<'_> {
                 let seed = scene.settings.seed.wrapping_add(APART.wrapping_mul(round));
                 let settings = Settings { samples, seed, ..scene.settings.clone() };
                 let (done, steps) = (f64::from(self.done), f64::from(self.steps));
+                let start = self.start;
                 let mut progress = |part: &Progress| {
-                    let fraction = (done + part.fraction) / steps;
-                    (watch.progress)(&Progress { fraction, ..*part })
+                    let (fraction, elapsed) = ((done + part.fraction) / steps, start.elapsed());
+                    let remaining = (fraction > 0.0).then(|| elapsed.mul_f64(1.0 / fraction - 1.0));
+                    (watch.progress)(&Progress { fraction, elapsed, remaining, ..*part })
                 };
                 let mut watch = Watch { previous: None, cancel: watch.cancel, progress: &mut progress };
                 let mut sensed = plan.follow(at_band, Effort::of_part(samples), &settings, self.execution, &mut watch)?;

@@ -24,13 +24,15 @@ impl ColourReading {
         let powers: Vec<Vec<f64>> = rounds.iter().map(|factors| mixture.power(factors)).collect();
         let at = |number: usize| Reading::of_parts(powers.iter().map(|round| round[number]));
         let spectrum: Vec<Reading> = (0..mixture.wavelengths_nm().len()).map(at).collect();
-        let luminous = |power: &[f64]| mixture.spectrum(power).map_or(0.0, |spectrum| spectrum.luminous());
+        let is_known = |power: &[f64]| power.iter().all(|power| !power.is_nan());
+        let lux = |power: &[f64]| mixture.spectrum(power).map_or(0.0, |spectrum| spectrum.luminous());
+        let luminous = |power: &[f64]| if is_known(power) { lux(power) } else { f64::NAN };
         let whole: Vec<f64> = spectrum.iter().map(|reading| reading.value).collect();
         let all_but = |round: &Vec<f64>| -> Vec<f64> {
             let count = powers.len() as f64;
             whole.iter().zip(round).map(|(mean, own)| (count * mean - own) / (count - 1.0)).collect()
         };
-        let said = |power: &[f64]| mixture.spectrum(power).map(|spectrum| figures(&spectrum));
+        let said = |power: &[f64]| mixture.spectrum(power).filter(|_| is_known(power)).map(|spectrum| figures(&spectrum));
         Self {
             illuminance: Reading::of_parts(powers.iter().map(|round| luminous(round))),
             figures: said(&whole),
@@ -72,7 +74,12 @@ impl ColourReading {
         })
     }
 
-    /// Why a figure is undefined, in words.
+    /// Whether there is room to count the light that no path from the meter finds.
+    pub(in super::super) fn is_known(&self) -> bool {
+        self.illuminance.is_known()
+    }
+
+    /// Why a figure of light that is known is undefined, in words.
     pub(in super::super) fn why_undefined(&self) -> String {
         let found = self.figures.as_ref().map(|figures| figures.notes.join("; "));
         found.filter(|notes| !notes.is_empty()).unwrap_or_else(|| "no light comes there".to_owned())
@@ -87,6 +94,9 @@ impl ColourReading {
 
     /// The figures in a line of words.
     pub fn note(&self) -> String {
+        if !self.is_known() {
+            return "its light is not known".to_owned();
+        }
         let figure = |measurand: Measurand, name: &str, places: usize| {
             self.of(measurand).map(|Reading { value, standard_error }| format!("{name} {value:.places$} ± {standard_error:.places$}"))
         };
