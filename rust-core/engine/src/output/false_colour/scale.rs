@@ -62,8 +62,9 @@ impl FalseColourScale {
         let wanted = span / f64::from(steps.clamp(1, MOST_STEPS));
         let power = 10f64.powf(wanted.log10().floor());
         let width = [1.0, 2.0, 5.0, 10.0].into_iter().map(|factor| factor * power).find(|width| *width >= 0.999 * wanted).unwrap_or(wanted);
-        let first = (least / width).floor();
-        let count = ((most / width).ceil() - first).clamp(1.0, f64::from(MOST_STEPS)) as u32;
+        // Values that stand on an edge but for rounding are on it.
+        let first = (least / width + 1e-6).floor();
+        let count = ((most / width - 1e-6).ceil() - first).clamp(1.0, f64::from(MOST_STEPS)) as u32;
         Self { edges: (0..=count).map(|step| ((first + f64::from(step)) * width) as f32).collect() }
     }
 
