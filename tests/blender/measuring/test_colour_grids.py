@@ -14,7 +14,8 @@ def test_a_grid_of_colour_rendering():
 
     scene = scenes.lit_floor()
     measuring = importlib.import_module("gonio_extension.measuring")
-    bpy.data.objects["Lamp"].data.gonio.spectrum = "LED-B3"
+    settings = bpy.data.objects["Lamp"].data.gonio
+    settings.use_photometry, settings.spectrum = True, "LED-B3"
     scene.gonio.false_color_max = 1000.0
     floor = bpy.data.objects["Floor"]
     floor.gonio.is_grid, floor.gonio.grid_spacing = True, 10.0
