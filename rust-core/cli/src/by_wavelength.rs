@@ -3,14 +3,14 @@
 use super::{
     arguments::{OutputArguments, RenderOptions},
     file::{check_ending, print_path},
-    interrupt::goes_on,
+    measure::watched,
     messages::list,
     progress::Reporter,
     render::{MOST_WARNINGS, attributes},
 };
 use gonio::{
     Error, Result,
-    measure::Watch,
+    compile::CompiledScene,
     output::{ExrOptions, check_spectral, write_spectral},
     scene::Scene,
     spectral_picture::spectral_picture,
@@ -32,16 +32,16 @@ fn bands(width_nm: f64) -> Result<&'static Bands> {
 }
 
 /// Renders a scene's view and writes it.
-pub(super) fn render(options: &RenderOptions, scene: &Scene, path: &Path, execution: Execution, interrupted: &AtomicBool) -> Result<()> {
-    let mut reporter = Reporter::new(options.quiet);
-    let mut progress = |progress: &gonio::render::Progress| {
-        reporter.show(progress);
-        goes_on(interrupted)
-    };
-    let mut watch = Watch { previous: None, cancel: interrupted, progress: &mut progress };
-    let found = spectral_picture(scene, bands(options.files.band)?, execution, &mut watch);
-    reporter.clear();
-    let (found, diagnostics) = found?;
+pub(super) fn render(
+    options: &RenderOptions,
+    (scene, previous): (&Scene, Option<&CompiledScene>),
+    path: &Path,
+    execution: Execution,
+    interrupted: &AtomicBool,
+) -> Result<()> {
+    let bands = bands(options.files.band)?;
+    let (found, diagnostics) =
+        watched(Reporter::new(options.quiet), previous, interrupted, |watch| spectral_picture(scene, bands, execution, watch))?;
     if !options.quiet {
         list(&diagnostics, if options.stage.verbose { usize::MAX } else { MOST_WARNINGS });
     }

@@ -25,18 +25,33 @@ pub(super) struct Picture {
 
 /// A picture of red, green, blue and coverage, rows from the top.
 pub(super) fn picture_of(values: Vec<f32>, size: [usize; 2]) -> Image {
+    Image { layers: vec![Layer { aov: Aov::Color, name: "color".into(), values, channels: 4 }], ..empty_picture(size) }
+}
+
+/// A picture without layers.
+pub(super) fn empty_picture(size: [usize; 2]) -> Image {
     let resolution = size.map(|side| side as u32);
     Image {
         resolution,
         window: Crop { min: [0; 2], max: resolution },
         frame: Frame::default(),
         backdrop: Default::default(),
-        layers: vec![Layer { aov: Aov::Color, name: "color".into(), values, channels: 4 }],
+        layers: Vec::new(),
         samples: 1,
         mean_samples: 1.0,
         manifests: Default::default(),
         deep: None,
     }
+}
+
+/// Red, green and blue among a file's channels, also under the names that Blender gives them; `wanted` says who asks.
+pub(super) fn colour_of<'a>(path: &Path, channels: &'a Channels, wanted: &str) -> Result<[&'a [f32]; 3]> {
+    let channel = |name: &str| {
+        let found = channels.iter().find(|(known, _)| known == name || known.ends_with(&format!("Combined.{name}")));
+        let problem = || format!("{wanted}; there is no {name}");
+        found.map(|(_, values)| values.as_slice()).ok_or_else(|| Error::Format { path: path.to_owned(), line: None, problem: problem() })
+    };
+    Ok([channel("R")?, channel("G")?, channel("B")?])
 }
 
 impl Picture {

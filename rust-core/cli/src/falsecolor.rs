@@ -2,7 +2,7 @@
 
 use super::{
     arguments::{FalsecolorOptions, ScaleArguments},
-    channel::{Picture, picture_of},
+    channel::{Picture, colour_of, picture_of},
     file::{check_ending, check_targets, print_path, put},
 };
 use gonio::{
@@ -36,15 +36,14 @@ pub(super) fn falsecolor(options: &FalsecolorOptions) -> Result<i32> {
 
 /// The steps that were asked for, up to what the values ask for where nothing is said.
 pub(super) fn scale(arguments: &ScaleArguments, values: &[f32]) -> Result<FalseColourScale> {
-    let max = arguments.max.unwrap_or_else(|| FalseColourScale::round_max(values));
-    FalseColourScale::new(max, arguments.steps, arguments.log)
+    FalseColourScale::of_values(values, arguments.max, arguments.steps, arguments.log, false)
 }
 
-/// The scale of a picture; of CCT and Duv, whose 0 means nothing, from the least to the greatest unless a greatest is asked for.
+/// The scale of a picture; CCT and Duv have no meaning at 0.
 fn of_quantity(options: &FalsecolorOptions, values: &[f32]) -> Result<FalseColourScale> {
     let is_of_colour = ["cct", "duv"].iter().any(|name| options.quantity.eq_ignore_ascii_case(name));
-    let even = scale(&options.scale, values)?;
-    Ok(if is_of_colour && options.scale.max.is_none() { FalseColourScale::around(values, options.scale.steps) } else { even })
+    let ScaleArguments { max, steps, log } = options.scale;
+    FalseColourScale::of_values(values, max, steps, log, is_of_colour)
 }
 
 /// A canvas as a PNG file's bytes, for the file at a path.
@@ -60,12 +59,7 @@ pub(super) fn write(path: &Path, canvas: &Canvas) -> Result<()> {
 
 /// The colour channels as the eye would see them, opaque.
 fn tone_mapped(picture: &Picture, path: &Path) -> Result<Canvas> {
-    let colour = |name: &str| {
-        let found = picture.channels.iter().find(|(known, _)| known == name || known.ends_with(&format!("Combined.{name}")));
-        let problem = || format!("--lines wants the colour channels R, G and B under the lines; there is no {name}");
-        found.map(|(_, values)| values).ok_or_else(|| Error::Format { path: path.to_owned(), line: None, problem: problem() })
-    };
-    let [red, green, blue] = [colour("R")?, colour("G")?, colour("B")?];
+    let [red, green, blue] = colour_of(path, &picture.channels, "--lines wants the colour channels R, G and B under the lines")?;
     let values = red.iter().zip(green).zip(blue).flat_map(|((r, g), b)| [*r, *g, *b, 1.0]).collect();
     let image = picture_of(values, picture.size);
     Ok(Canvas { rgba: display(&image, &Look::default(), Execution::detect()), size: picture.size })

@@ -20,13 +20,13 @@ use gonio::{
         ColourReading, GridReading, MOST_BOUNCES, Measurements, MeterReading, Reading, SensorGrid, Summary, Watch, csv,
         measure as evaluate, value_picture,
     },
-    output::FalseColour,
+    output::{FalseColour, FalseColourScale},
     scene::{Integrator, Measurand, Meter, Origin, Scene},
 };
 use gonio_simd::Execution;
 use gonio_usd::{Loaded, SampleTime, context::UpAxis};
 use pyo3::prelude::*;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 use std::{
     path::{Path, PathBuf},
     sync::atomic::AtomicBool,
@@ -51,12 +51,7 @@ pub(super) fn loaded(py: Python<'_>, options: &MeasuringArguments, interrupted: 
     author_grids(py, &stage, &options.grids, measurand)?;
     let mut loaded = stage.load(py, &stage_options, interrupted)?;
     let points = points(options, measurand.unwrap_or(Measurand::Illuminance), loaded.info.up_axis)?;
-    if !points.is_empty() {
-        // Who asks for a point has not asked for what the stage would measure besides.
-        loaded.scene.meters.clear();
-        loaded.scene.grids.retain(|grid| options.grids.grid.iter().any(|prim| *prim == *grid.origin.name));
-    }
-    loaded.scene.meters.extend(points);
+    take_points(&mut loaded.scene, &options.grids, points);
     daylight::add(&options.daylight, &mut loaded, options.stage.strict, options.quiet)?;
     light_model(&options.stage.stage, &mut loaded, options.quiet);
     if !options.quiet {
@@ -64,11 +59,24 @@ pub(super) fn loaded(py: Python<'_>, options: &MeasuringArguments, interrupted: 
     }
     let limits = (options.spp, options.max_bounces);
     apply_settings(&mut loaded.scene, limits, options.integrator.into(), (&options.work, &options.textures));
-    if loaded.scene.meters.is_empty() && loaded.scene.grids.is_empty() {
-        let problem = "the stage has no gonio:grid or gonio:meter; name a surface with --grid /Prim or a point with --at X,Y,Z";
-        return Err(Error::setting("grid", problem));
-    }
+    check_asked(&loaded.scene)?;
     Ok((stage, loaded))
+}
+
+/// The points of the command line, in place of all that it does not name.
+pub(super) fn take_points(scene: &mut Scene, grids: &GridArguments, points: Vec<Meter>) {
+    if !points.is_empty() {
+        // Who asks for a point has not asked for what the stage would measure besides.
+        scene.meters.clear();
+        scene.grids.retain(|grid| grids.grid.iter().any(|prim| *prim == *grid.origin.name));
+    }
+    scene.meters.extend(points);
+}
+
+/// Makes sure that anything is asked for.
+pub(super) fn check_asked(scene: &Scene) -> Result<()> {
+    let problem = "the stage has no gonio:grid or gonio:meter; name a surface with --grid /Prim or a point with --at X,Y,Z";
+    if scene.meters.is_empty() && scene.grids.is_empty() { Err(Error::setting("grid", problem)) } else { Ok(()) }
 }
 
 /// How many warnings are listed.
@@ -99,7 +107,9 @@ fn run(options: &MeasureOptions, loaded: Loaded, interrupted: &'static AtomicBoo
         put(path, csv(&found).as_bytes())?;
     }
     if let Some(path) = &options.output {
-        draw(options, &found, path)?;
+        let scale =
+            |grid: &GridReading| Ok((grid.measurand.unit(), grid.scale(options.scale.max, options.scale.steps, options.scale.log)?));
+        draw(&found.grids, path, !measuring.quiet && !measuring.json, scale)?;
     }
     if measuring.json {
         print(&as_json(&found).to_string());
@@ -115,14 +125,24 @@ fn run(options: &MeasureOptions, loaded: Loaded, interrupted: &'static AtomicBoo
 pub(super) fn evaluated(
     scene: &Scene,
     previous: Option<&CompiledScene>,
-    mut reporter: Reporter,
+    reporter: Reporter,
     interrupted: &AtomicBool,
 ) -> Result<Measurements> {
+    watched(reporter, previous, interrupted, |watch| evaluate(scene, Execution::detect(), watch))
+}
+
+/// Does what is watched as measurements are, and shows how far it is.
+pub(super) fn watched<T>(
+    mut reporter: Reporter,
+    previous: Option<&CompiledScene>,
+    interrupted: &AtomicBool,
+    work: impl FnOnce(&mut Watch<'_>) -> Result<T>,
+) -> Result<T> {
     let mut progress = |progress: &gonio::render::Progress| {
         reporter.show(progress);
         goes_on(interrupted)
     };
-    let found = evaluate(scene, Execution::detect(), &mut Watch { previous, cancel: interrupted, progress: &mut progress });
+    let found = work(&mut Watch { previous, cancel: interrupted, progress: &mut progress });
     reporter.clear();
     found
 }
@@ -159,30 +179,29 @@ pub(super) fn triple(name: &str, text: &str) -> Result<[f64; 3]> {
     numbers.try_into().map_err(wrong)
 }
 
-/// The grids' pictures: under the name given, or with each prim's name before its ending.
-fn draw(options: &MeasureOptions, found: &Measurements, path: &Path) -> Result<()> {
-    if found.grids.is_empty() {
+/// The grids' pictures: under the name given, or with each prim's name before its ending. Each has its unit and its scale; `tell` names the files.
+pub(super) fn draw(
+    grids: &[GridReading],
+    path: &Path,
+    tell: bool,
+    scale: impl Fn(&GridReading) -> Result<(&'static str, FalseColourScale)>,
+) -> Result<()> {
+    if grids.is_empty() {
         return Err(Error::setting("output", "a value picture wants a grid; points alone have none"));
     }
-    for (number, grid) in found.grids.iter().enumerate() {
-        let style = FalseColour {
-            scale: grid.scale(options.scale.max, options.scale.steps, options.scale.log)?,
-            unit: grid.measurand.unit().into(),
-            contours: true,
-            smoothing: 0,
-            legend: true,
-        };
-        let path = if found.grids.len() == 1 { path.to_owned() } else { named(path, grid, number) };
+    for (number, grid) in grids.iter().enumerate() {
+        let (unit, scale) = scale(grid)?;
+        let style = FalseColour { scale, unit: unit.into(), contours: true, smoothing: 0, legend: true };
+        let path = if grids.len() == 1 { path.to_owned() } else { named(path, grid, number) };
         falsecolor::write(&path, &value_picture(grid, &style))?;
-        if !options.measuring.quiet && !options.measuring.json {
+        if tell {
             print_path(&path);
         }
     }
     Ok(())
 }
 
-/// The name of one of several grids' pictures.
-pub(super) fn named(path: &Path, grid: &GridReading, number: usize) -> PathBuf {
+fn named(path: &Path, grid: &GridReading, number: usize) -> PathBuf {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let prim = grid.origin.name.rsplit('/').next().unwrap_or_default();
     path.with_file_name(format!("{stem}.{number}-{prim}.png"))
@@ -247,7 +266,6 @@ fn grid_lines(grid: &GridReading) -> Vec<String> {
 }
 
 fn as_json(found: &Measurements) -> Value {
-    let reading = |reading: &Reading| json!({ "value": reading.value, "standard_error": reading.standard_error });
     let meter = |meter: &MeterReading| {
         json!({
             "name": &*meter.meter.origin.name,
@@ -258,57 +276,58 @@ fn as_json(found: &Measurements) -> Value {
             "standard_error": meter.reading.standard_error,
             "ugr_coverage": meter.coverage.as_ref().map(coverage_json),
             "ugr_small_sources": meter.small.map(|small| small.count),
-            "ugr_as_in_tables": meter.small.and_then(|small| small.tabular).as_ref().map(reading),
+            "ugr_as_in_tables": meter.small.and_then(|small| small.tabular).as_ref().map(reading_json),
             "colour": meter.colour.as_ref().map(|colour| colour_json(colour)),
         })
     };
     let grid = |grid: &GridReading| {
-        json!({
-            "name": &*grid.origin.name,
-            "quantity": grid.measurand.name(),
-            "unit": grid.measurand.unit(),
-            "columns": grid.size[0],
-            "rows": grid.size[1],
-            "spacing_m": grid.spacing,
-            "points": grid.summary.points,
-            "area_m2": grid.area,
-            "average": reading(&grid.summary.average),
-            "min": reading(&grid.summary.min),
-            "max": reading(&grid.summary.max),
-            "uniformity_u0": grid.summary.uniformity(),
-            "diversity_ud": grid.summary.diversity(),
-            "ugr_coverage": grid.coverage.iter().map(coverage_json).collect::<Vec<_>>(),
-            "ugr_small_sources": grid.small.iter().map(|small| small.count).collect::<Vec<_>>(),
-            "ugr_as_in_tables": grid.small.iter().map(|small| small.tabular.map(|reading| reading.value)).collect::<Vec<_>>(),
-            "colours": grid.colours.iter().map(|colour| colour_json(colour)).collect::<Vec<_>>(),
-            "values": grid.points.iter().map(|point| point.map(|(_, reading)| reading.value)).collect::<Vec<_>>(),
-        })
+        let mut all = summary_json(&grid.origin.name, grid.measurand, &grid.summary);
+        let more = [
+            ("columns", json!(grid.size[0])),
+            ("rows", json!(grid.size[1])),
+            ("spacing_m", json!(grid.spacing)),
+            ("area_m2", json!(grid.area)),
+            ("ugr_coverage", json!(grid.coverage.iter().map(coverage_json).collect::<Vec<_>>())),
+            ("ugr_small_sources", json!(grid.small.iter().map(|small| small.count).collect::<Vec<_>>())),
+            ("ugr_as_in_tables", json!(grid.small.iter().map(|small| small.tabular.map(|reading| reading.value)).collect::<Vec<_>>())),
+            ("colours", json!(grid.colours.iter().map(|colour| colour_json(colour)).collect::<Vec<_>>())),
+            ("values", json!(grid.points.iter().map(|point| point.map(|(_, reading)| reading.value)).collect::<Vec<_>>())),
+        ];
+        all.extend(more.map(|(name, value)| (name.to_owned(), value)));
+        Value::Object(all)
     };
-    let together = |grid: &SensorGrid| {
-        json!({
-            "name": grid.name,
-            "quantity": grid.measurand.name(),
-            "unit": grid.measurand.unit(),
-            "points": grid.summary.points,
-            "average": reading(&grid.summary.average),
-            "min": reading(&grid.summary.min),
-            "max": reading(&grid.summary.max),
-            "uniformity_u0": grid.summary.uniformity(),
-            "diversity_ud": grid.summary.diversity(),
-        })
-    };
+    let sensors = SensorGrid::all(&found.meters);
     json!({
         "meters": found.meters.iter().map(meter).collect::<Vec<_>>(),
-        "sensor_grids": SensorGrid::all(&found.meters).iter().map(together).collect::<Vec<_>>(),
+        "sensor_grids": sensors.iter().map(|grid| summary_json(&grid.name, grid.measurand, &grid.summary)).collect::<Vec<_>>(),
         "grids": found.grids.iter().map(grid).collect::<Vec<_>>(),
     })
+}
+
+fn reading_json(reading: &Reading) -> Value {
+    json!({ "value": reading.value, "standard_error": reading.standard_error })
+}
+
+/// The figures of points together.
+fn summary_json(name: &str, measurand: Measurand, summary: &Summary) -> Map<String, Value> {
+    let all = [
+        ("name", json!(name)),
+        ("quantity", json!(measurand.name())),
+        ("unit", json!(measurand.unit())),
+        ("points", json!(summary.points)),
+        ("average", reading_json(&summary.average)),
+        ("min", reading_json(&summary.min)),
+        ("max", reading_json(&summary.max)),
+        ("uniformity_u0", json!(summary.uniformity())),
+        ("diversity_ud", json!(summary.diversity())),
+    ];
+    all.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
 }
 
 /// All that a spectrum says which a meter got, and the spectrum.
 fn colour_json(colour: &ColourReading) -> Value {
     let mut all = colour.figures.as_ref().map(figures_json).unwrap_or_default();
-    let figures = [Measurand::Cct, Measurand::Duv, Measurand::Ra, Measurand::Rf, Measurand::Rg];
-    let named = figures.map(|measurand| (measurand.name(), colour.of(measurand)));
+    let named = Measurand::OF_COLOUR.map(|measurand| (measurand.name(), colour.of(measurand)));
     let others = [("illuminance_lx", Some(colour.illuminance)), ("melanopic_edi_lx", colour.melanopic_edi())];
     all.extend(others.iter().map(|(name, reading)| ((*name).to_owned(), json!(reading.map(|reading| reading.value)))));
     let errors = named.into_iter().chain(others).map(|(name, reading)| (name, reading.map(|reading| reading.standard_error)));

@@ -109,10 +109,8 @@ impl Sequence<'_> {
         let checkpoint = options.checkpoint.checkpoint.as_ref().map(of_frame).transpose()?;
         let deep = options.files.deep.as_ref().map(of_frame).transpose()?;
         let by_wavelength = options.files.by_wavelength.as_ref().map(of_frame).transpose()?;
-        let by_wavelength_alone = by_wavelength.is_some() && options.files.output.is_empty() && checkpoint.is_none() && deep.is_none();
-        let pictures = if by_wavelength_alone {
-            vec![Picture::of_all_products(&loaded, std::iter::empty(), None)]
-        } else if options.files.output.is_empty() && checkpoint.is_none() && deep.is_none() {
+        let names_nothing = options.files.output.is_empty() && checkpoint.is_none() && deep.is_none() && by_wavelength.is_none();
+        let pictures = if names_nothing {
             self.products.pictures(&loaded, named)?
         } else {
             let paths: Vec<PathBuf> = options.files.output.iter().map(of_frame).collect::<Result<_>>()?;
@@ -135,7 +133,6 @@ impl Sequence<'_> {
                 is_first,
                 checkpoint,
                 by_wavelength,
-                by_wavelength_alone,
                 loading,
                 waited_for_meshes,
                 time,
@@ -280,9 +277,7 @@ struct Job<'a> {
     /// Of its frame: it tells what the stage has to tell.
     is_first: bool,
     checkpoint: Option<PathBuf>,
-    /// The picture by wavelength, and whether there is to be nothing else.
     by_wavelength: Option<PathBuf>,
-    by_wavelength_alone: bool,
     loading: Duration,
     waited_for_meshes: Duration,
     /// Of the frame, seconds.
@@ -300,10 +295,10 @@ impl Job<'_> {
             list(&loaded.diagnostics, if self.options.stage.verbose { usize::MAX } else { MOST_WARNINGS });
         }
         if let Some(path) = &self.by_wavelength {
-            by_wavelength::render(self.options, &loaded.scene, path, self.execution, self.interrupted)?;
-        }
-        if self.by_wavelength_alone {
-            return Ok(None);
+            by_wavelength::render(self.options, (&loaded.scene, previous), path, self.execution, self.interrupted)?;
+            if self.picture.files.is_empty() && self.picture.deep.is_empty() && self.checkpoint.is_none() {
+                return Ok(None);
+            }
         }
         let hidden = self.writer.ask_for_passes(&mut loaded.scene.settings);
         if !self.picture.deep.is_empty() {

@@ -2,42 +2,30 @@
 
 use super::{
     arguments::SensorOptions,
+    channel::empty_picture,
     file::{self, check_ending, check_targets, print_path, write_or_keep},
-    wavelengths::{self, Wavelengths},
+    spectrum,
+    wavelengths::Wavelengths,
 };
 use gonio::{
     Error, Result,
-    film::{Frame, Image, Layer},
-    output::{ExrOptions, Further, view_of_exr, write_exr_with},
-    scene::Crop,
+    output::{ExrOptions, Further, read_exr, view_of_exr, write_exr_with},
 };
 use gonio_spectrum::{Response, Spectrum};
-
-/// The longest file of curves in bytes.
-const LONGEST: u64 = 64 << 20;
 
 /// Sees a picture by wavelength as a sensor does.
 pub(super) fn sensor(options: &SensorOptions) -> Result<i32> {
     check_ending("output", &options.output, &["exr"])?;
     check_targets([&options.output])?;
-    let bytes = file::read(&options.response, LONGEST, "sensor")?;
+    let bytes = file::read(&options.response, spectrum::LONGEST, "sensor")?;
     let response = Response::read(&bytes).map_err(|error| Error::in_file(&options.response, &error))?;
-    let white = options.white.as_deref().filter(|name| *name != "none").map(super::spectrum::one).transpose()?;
-    let (channels, size) = wavelengths::read(&options.image)?;
-    let Some(found) = Wavelengths::of(&channels) else { return Ok(1) };
+    let white = options.white.as_deref().filter(|name| *name != "none").map(spectrum::one).transpose()?;
+    let (channels, size) = read_exr(&options.image)?;
+    let found = Wavelengths::of(&options.image, &channels, "no picture by wavelength")?;
     let weights = weights(&found, &response, white.as_ref())?;
     let further: Further = response.names.iter().cloned().zip(weights.iter().map(|weights| found.sum(weights))).collect();
-    let image = Image {
-        resolution: size.map(|side| side as u32),
-        window: Crop { min: [0; 2], max: size.map(|side| side as u32) },
-        frame: Frame { view: view_of_exr(&options.image)?, ..Frame::default() },
-        backdrop: Default::default(),
-        layers: Vec::<Layer>::new(),
-        samples: 1,
-        mean_samples: 1.0,
-        manifests: Default::default(),
-        deep: None,
-    };
+    let mut image = empty_picture(size);
+    image.frame.view = view_of_exr(&options.image)?;
     write_or_keep(&options.output, |path| write_exr_with(path, &image, &further, &ExrOptions::default()))?;
     if !options.quiet {
         print_path(&options.output);

@@ -2,28 +2,26 @@
 
 use super::{
     arguments::SunlightOptions,
-    daylight, falsecolor,
-    file::{check_ending, check_targets, print_path},
-    interrupt::goes_on,
-    measure::{author_grids, named, triple},
+    daylight,
+    file::{check_ending, check_targets},
+    measure::{author_grids, check_asked, draw, take_points, triple, watched},
     messages::{list, print},
     progress::Reporter,
     render::{MOST_WARNINGS, stage_options},
     stage::Stage,
 };
 use gonio::{
-    Error, Result,
-    measure::{GridPoints, GridReading, MOST_POINTS, Watch, value_picture},
-    output::{FalseColour, FalseColourScale},
-    scene::{Grid, Meter, Origin},
+    Result,
+    measure::{GridPoints, GridReading, Watch},
+    scene::{Measurand, Meter, Origin},
     sky::{Frame, Moment},
-    sunlight::{Sunlight, SunlightTask, sunlight as follow},
+    sunlight::{Sunlight, SunlightTask, sunlight as sunlight_of_day},
 };
 use gonio_simd::Execution;
-use gonio_usd::{Loaded, daylight::up_axis};
+use gonio_usd::{Loaded, context::UpAxis, daylight::up_axis};
 use pyo3::prelude::*;
 use serde_json::{Value, json};
-use std::{path::Path, sync::atomic::AtomicBool};
+use std::sync::atomic::AtomicBool;
 
 /// Hours of sun on a day by EN 17037: least, medium, high.
 const LEVELS: [(f64, &str); 3] = [(4.0, "high"), (3.0, "medium"), (1.5, "minimum")];
@@ -43,29 +41,20 @@ pub(super) fn sunlight(py: Python<'_>, options: &SunlightOptions, interrupted: &
     let mut loaded = stage.load(py, &stage_options, interrupted)?;
     options.work.apply(&mut loaded.scene.settings);
     options.textures.apply(&mut loaded.scene.settings);
-    take_points(options, &mut loaded)?;
+    let points = points(options, loaded.info.up_axis)?;
+    take_points(&mut loaded.scene, &options.grids, points);
+    check_asked(&loaded.scene)?;
     let frame = Frame { up_axis: up_axis(loaded.info.up_axis), north_deg: options.north };
     let task = SunlightTask { place, day, frame, least_elevation_deg: options.least_elevation, step_min: options.step };
     py.detach(|| run(options, &loaded, &task, interrupted))
 }
 
-/// The meters of `--at`, in place of the stage's.
-fn take_points(options: &SunlightOptions, loaded: &mut Loaded) -> Result<()> {
-    let [up, _] = gonio_usd::meter::axes(loaded.info.up_axis);
+/// The meters of `--at`.
+fn points(options: &SunlightOptions, axis: UpAxis) -> Result<Vec<Meter>> {
+    let [up, _] = gonio_usd::meter::axes(axis);
     let normal = options.normal.as_ref().map_or(Ok(up), |text| triple("normal", text))?;
-    if !options.at.is_empty() {
-        loaded.scene.meters.clear();
-        loaded.scene.grids.retain(|grid| options.grids.grid.iter().any(|prim| *prim == *grid.origin.name));
-    }
-    for text in &options.at {
-        let position = triple("at", text)?;
-        loaded.scene.meters.push(Meter { origin: Origin::new(text), position, normal, ..Meter::default() });
-    }
-    if loaded.scene.meters.is_empty() && loaded.scene.grids.is_empty() {
-        let problem = "the stage has no gonio:grid or gonio:meter; name a surface with --grid /Prim or a point with --at X,Y,Z";
-        return Err(Error::setting("grid", problem));
-    }
-    Ok(())
+    let meter = |text: &String| Ok(Meter { origin: Origin::new(text), position: triple("at", text)?, normal, ..Meter::default() });
+    options.at.iter().map(meter).collect()
 }
 
 fn run(options: &SunlightOptions, loaded: &Loaded, task: &SunlightTask, interrupted: &AtomicBool) -> Result<i32> {
@@ -75,30 +64,25 @@ fn run(options: &SunlightOptions, loaded: &Loaded, task: &SunlightTask, interrup
         }
     };
     tell(&loaded.diagnostics);
-    let (meters, grids) = (&loaded.scene.meters, laid_out(loaded)?);
-    let of_grids = grids.iter().flat_map(|(grid, points)| {
-        points.known().map(|position| Meter { origin: grid.origin.clone(), position, normal: points.normal, ..Meter::default() })
-    });
-    let points: Vec<Meter> = meters.iter().map(|meter| Meter { measurand: Default::default(), ..meter.clone() }).chain(of_grids).collect();
-    let mut reporter = Reporter::new(options.quiet);
-    let mut progress = |progress: &gonio::render::Progress| {
-        reporter.show(progress);
-        goes_on(interrupted)
-    };
-    let mut watch = Watch { previous: None, cancel: interrupted, progress: &mut progress };
-    let found = follow(&loaded.scene, &points, task, Execution::detect(), &mut watch);
-    reporter.clear();
-    let (found, diagnostics) = found?;
+    let scene = &loaded.scene;
+    let (meters, grids) = (&scene.meters, GridPoints::of_scene(scene)?);
+    let of_grids = scene.grids.iter().zip(&grids).flat_map(|(grid, points)| points.meters(grid));
+    // The sun is seen from planes, whatever they measure.
+    let plane = |meter: Meter| Meter { measurand: Measurand::Illuminance, ..meter };
+    let points: Vec<Meter> = meters.iter().cloned().chain(of_grids).map(plane).collect();
+    let follow = |watch: &mut Watch<'_>| sunlight_of_day(scene, &points, task, Execution::detect(), watch);
+    let (found, diagnostics) = watched(Reporter::new(options.quiet), None, interrupted, follow)?;
     tell(&diagnostics);
     let mut first = meters.len();
     let mut readings = Vec::new();
-    for (grid, points) in grids {
+    for (grid, points) in scene.grids.iter().zip(grids) {
         let hours: Vec<f64> = (first..first + points.known().count()).map(|point| found.hours(point)).collect();
         first += hours.len();
-        readings.push(GridReading::of_values(&grid, points, &hours));
+        readings.push(GridReading::of_values(grid, points, &hours));
     }
     if let Some(path) = &options.output {
-        draw(options, &readings, path)?;
+        let scale = |grid: &GridReading| Ok(("h", grid.scale(None, STEPS, None)?));
+        draw(&readings, path, !options.quiet && !options.json, scale)?;
     }
     if options.json {
         print(&as_json(&found, task, meters, &readings).to_string());
@@ -106,34 +90,6 @@ fn run(options: &SunlightOptions, loaded: &Loaded, task: &SunlightTask, interrup
         as_text(&found, task, meters, &readings).iter().for_each(|line| print(line));
     }
     Ok(0)
-}
-
-/// The stage's grids, whatever they measure, with their points.
-fn laid_out(loaded: &Loaded) -> Result<Vec<(Grid, GridPoints)>> {
-    let scene = &loaded.scene;
-    let grids = scene.grids.iter().map(|grid| Ok((grid.clone(), GridPoints::new(scene, grid)?))).collect::<Result<Vec<_>>>()?;
-    let count = scene.meters.len() + grids.iter().map(|(_, points)| points.known().count()).sum::<usize>();
-    if count > MOST_POINTS {
-        return Err(Error::setting("grids", format!("more than {MOST_POINTS} points in all; take a wider spacing")));
-    }
-    Ok(grids)
-}
-
-/// The grids' hours in false colour, on a scale up to the hours that there are.
-fn draw(options: &SunlightOptions, readings: &[GridReading], path: &Path) -> Result<()> {
-    if readings.is_empty() {
-        return Err(Error::setting("output", "a picture of hours wants a grid; points alone have none"));
-    }
-    for (number, grid) in readings.iter().enumerate() {
-        let scale = FalseColourScale::new(FalseColourScale::round_max(&grid.values()), STEPS, None)?;
-        let style = FalseColour { scale, unit: "h".into(), contours: true, smoothing: 0, legend: true };
-        let path = if readings.len() == 1 { path.to_owned() } else { named(path, grid, number) };
-        falsecolor::write(&path, &value_picture(grid, &style))?;
-        if !options.quiet && !options.json {
-            print_path(&path);
-        }
-    }
-    Ok(())
 }
 
 /// What EN 17037 calls so many hours of a day; none of days that it does not know.

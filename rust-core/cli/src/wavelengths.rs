@@ -1,8 +1,9 @@
 //! Pictures by wavelength, as `gonio render --by-wavelength` writes them, and what they tell: channels of sensors, CCT, Duv, melanopic luminance.
 
+use super::channel::colour_of;
 use gonio::{
     Error, Result,
-    output::{Channels, has_other_primaries, read_exr},
+    output::{Channels, has_other_primaries},
 };
 use gonio_spectrum::{cct_of_colour, melanopic_daylight};
 use std::path::Path;
@@ -16,15 +17,20 @@ pub(super) struct Wavelengths<'a> {
 }
 
 impl<'a> Wavelengths<'a> {
-    /// Those among the channels of a file; none where it has fewer than three.
-    pub(super) fn of(channels: &'a Channels) -> Option<Self> {
+    /// Those among the channels of a file; `wanted` says who asks.
+    ///
+    /// # Errors
+    /// Fewer than three.
+    pub(super) fn of(path: &Path, channels: &'a Channels, wanted: &str) -> Result<Self> {
         let number = |name: &str| name.strip_prefix("S0.")?.strip_suffix("nm")?.replace(',', ".").parse::<f64>().ok();
         let mut bands: Vec<(f64, &[f32])> =
             channels.iter().filter_map(|(name, values)| Some((number(name).filter(|nm| nm.is_finite())?, values.as_slice()))).collect();
         bands.sort_by(|a, b| a.0.total_cmp(&b.0));
         bands.dedup_by(|a, b| a.0.total_cmp(&b.0).is_eq());
         let (nm, radiance): (Vec<f64>, Vec<&[f32]>) = bands.into_iter().unzip();
-        (nm.len() >= 3).then_some(Self { nm, radiance })
+        let none =
+            || lacks(path, &format!("{wanted}, which gonio render --by-wavelength writes: there are no channels such as S0.550,000000nm"));
+        (nm.len() >= 3).then_some(Self { nm, radiance }).ok_or_else(none)
     }
 
     /// The width of each band, nm: half of the way to its neighbours on both sides.
@@ -56,16 +62,10 @@ pub(super) fn derived(path: &Path, channels: &Channels, quantity: &str) -> Resul
         "melanopic" => return melanopic(path, channels).map(Some),
         _ => return Ok(None),
     };
-    let channel = |name: &str| {
-        let found = channels.iter().find(|(known, _)| known == name || known.ends_with(&format!("Combined.{name}")));
-        found
-            .map(|(_, values)| values)
-            .ok_or_else(|| lacks(path, &format!("{quantity} wants the colour channels R, G and B; there is no {name}")))
-    };
     if has_other_primaries(path)? {
         return Err(lacks(path, &format!("{quantity} wants colours in linear Rec.709, and the file's have other primaries")));
     }
-    let [red, green, blue] = [channel("R")?, channel("G")?, channel("B")?];
+    let [red, green, blue] = colour_of(path, channels, &format!("{quantity} wants the colour channels R, G and B"))?;
     let of_pixel =
         |((r, g), b): ((&f32, &f32), &f32)| cct_of_colour([*r, *g, *b].map(f64::from)).map_or(f32::NAN, |found| figure(found) as f32);
     Ok(Some(red.iter().zip(green).zip(blue).map(of_pixel).collect()))
@@ -73,23 +73,9 @@ pub(super) fn derived(path: &Path, channels: &Channels, quantity: &str) -> Resul
 
 /// Melanopic equivalent daylight luminance, cd/m².
 fn melanopic(path: &Path, channels: &Channels) -> Result<Vec<f32>> {
-    let found = Wavelengths::of(channels).ok_or_else(|| {
-        lacks(path, "melanopic luminance wants a picture by wavelength (gonio render --by-wavelength): colour does not tell it")
-    })?;
+    let found = Wavelengths::of(path, channels, "colour does not tell melanopic luminance, but a picture by wavelength")?;
     let weights: Vec<f64> = found.nm.iter().zip(found.widths()).map(|(nm, width)| width * melanopic_daylight(*nm)).collect();
     Ok(found.sum(&weights))
-}
-
-/// A file's channels and size, which must be by wavelength.
-pub(super) fn read(path: &Path) -> Result<(Channels, [usize; 2])> {
-    let (channels, size) = read_exr(path)?;
-    match Wavelengths::of(&channels) {
-        Some(_) => Ok((channels, size)),
-        None => Err(lacks(
-            path,
-            "no picture by wavelength, which gonio render --by-wavelength writes: there are no channels such as S0.550,000000nm",
-        )),
-    }
 }
 
 fn lacks(path: &Path, problem: &str) -> Error {

@@ -48,16 +48,10 @@ pub fn spectral_picture(
     let diagnostics = compiled.diagnostics.clone();
     let mut banded = BandedScene::new(compiled, bands);
     let start = Instant::now();
-    let mut pictures: Vec<Image> = Vec::with_capacity(1);
+    let mut first: Option<(Image, f64)> = None;
     let mut radiance = Vec::with_capacity(bands.count());
-    let mut exposure = 1.0;
     for band in 0..bands.count() {
-        let mut progress = |part: &Progress| {
-            let fraction = (band as f64 + part.fraction) / bands.count() as f64;
-            let elapsed = start.elapsed();
-            let remaining = (fraction > 0.0).then(|| elapsed.mul_f64(1.0 / fraction - 1.0));
-            (watch.progress)(&Progress { fraction, elapsed, remaining, ..*part })
-        };
+        let mut progress = |part: &Progress| (watch.progress)(&part.of_whole(band, bands.count(), start));
         let mut render = Render::start(banded.at(band)?.clone(), &scene.settings, execution)?;
         while !render.is_finished() {
             let _ = render.next_tile(TELL_EVERY);
@@ -66,16 +60,13 @@ pub fn spectral_picture(
             }
         }
         render.finish()?;
-        exposure = f64::from(render.film().exposure());
-        let image = render.film().develop();
+        let (image, exposure) = (render.film().develop(), f64::from(render.film().exposure()));
         let found = |pixel: &[f32]| bands.power(band, f64::from(pixel[1]) / exposure) as f32;
         let colour = image.layer(Aov::Color).ok_or_else(|| Error::Internal("a picture without colour".to_owned()))?;
         radiance.push(colour.values.chunks_exact(colour.channels).map(found).collect::<Vec<f32>>());
-        if pictures.is_empty() {
-            pictures.push(image);
-        }
+        first.get_or_insert((image, exposure));
     }
-    let mut image = pictures.pop().ok_or_else(|| Error::Internal("no band was rendered".to_owned()))?;
+    let (mut image, exposure) = first.ok_or_else(|| Error::Internal("no band was rendered".to_owned()))?;
     colour(&mut image, bands, &radiance, exposure);
     Ok((SpectralPicture { image, bands, radiance }, diagnostics))
 }

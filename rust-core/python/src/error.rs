@@ -1,6 +1,6 @@
 //! The one match from the engine's errors to Python's exceptions.
 
-use gonio::Error as EngineError;
+use gonio::{Diagnostic, Error as EngineError};
 use pyo3::{
     PyErr, create_exception,
     exceptions::{PyBaseException, PyException},
@@ -14,6 +14,11 @@ create_exception!(gonio, FormatError, Error, "A file's content cannot be used.")
 create_exception!(gonio, SettingError, Error, "A setting is out of its range.");
 create_exception!(gonio, UnsupportedError, Error, "A feature that gonio does not have.");
 create_exception!(gonio, Cancelled, Error, "The caller asked to stop.");
+
+/// Diagnostics as Python has them: (origin, message).
+pub(crate) fn told<'a>(diagnostics: impl IntoIterator<Item = &'a Diagnostic>) -> Vec<(String, String)> {
+    diagnostics.into_iter().map(|found| (found.origin.to_string(), found.message.clone())).collect()
+}
 
 /// The exception for a setting's problem.
 pub(crate) fn setting(name: &str, problem: impl Into<String>) -> PyErr {

@@ -2,7 +2,7 @@
 
 use crate::{
     array::Array,
-    error::{exception, setting},
+    error::{exception, setting, told},
     measure::Reading,
 };
 use gonio::{
@@ -158,7 +158,7 @@ impl LuminaireReading {
     /// What is not as asked for, as (origin, message).
     #[getter]
     fn diagnostics(&self) -> Vec<(String, String)> {
-        self.diagnostics.iter().map(|d| (d.origin.to_string(), d.message.clone())).collect()
+        told(&self.diagnostics)
     }
     /// All directions as comma-separated values.
     fn csv(&self) -> String {

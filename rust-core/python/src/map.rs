@@ -2,7 +2,7 @@
 
 use crate::{
     array::Array,
-    error::{exception, setting},
+    error::{exception, setting, told},
     render::Render,
     scene::Scene,
     watched::{unless, watched},
@@ -78,7 +78,7 @@ impl IlluminationMaps {
     /// What is to be known of the maps: where it is, and what.
     #[getter]
     fn diagnostics(&self) -> Vec<(String, String)> {
-        self.maps.diagnostics.iter().map(|diagnostic| (diagnostic.origin.to_string(), diagnostic.message.clone())).collect()
+        told(&self.maps.diagnostics)
     }
     /// Lux as the camera of a scene sees the surfaces, (height, width), rows from the top; nan where there is no map. The scene is the one that was
     /// mapped, with any camera and size. `quantity` is illuminance, direct, indirect or error; a pixel looks `side` × `side` times. With `smooth` differences

@@ -2,7 +2,7 @@
 
 use crate::{
     array::Array,
-    error::exception,
+    error::{exception, told},
     glare::Coverage,
     picture::Picture,
     render::Render,
@@ -82,7 +82,7 @@ fn colour_described<'py>(py: Python<'py>, colour: &measure::ColourReading) -> Py
         None => PyDict::new(py),
     };
     let errors = PyDict::new(py);
-    for measurand in [Measurand::Cct, Measurand::Duv, Measurand::Ra, Measurand::Rf, Measurand::Rg] {
+    for measurand in Measurand::OF_COLOUR {
         errors.set_item(measurand.name(), colour.of(measurand).map(|reading| reading.standard_error))?;
     }
     for (name, reading) in [("illuminance_lx", Some(colour.illuminance)), ("melanopic_edi_lx", colour.melanopic_edi())] {
@@ -247,7 +247,7 @@ impl Measurements {
     /// What is not as asked for, as (origin, message).
     #[getter]
     fn diagnostics(&self) -> Vec<(String, String)> {
-        self.found.diagnostics.iter().map(|d| (d.origin.to_string(), d.message.clone())).collect()
+        told(&self.found.diagnostics)
     }
     /// All points as comma-separated values, one a line.
     fn csv(&self) -> String {

@@ -75,8 +75,7 @@ pub(crate) fn style(
     [contours, legend]: [bool; 2],
     smoothing: usize,
 ) -> PyResult<FalseColour> {
-    let max = max.unwrap_or_else(|| FalseColourScale::round_max(values));
-    let scale = FalseColourScale::new(max, steps, log).map_err(exception)?;
+    let scale = FalseColourScale::of_values(values, max, steps, log, false).map_err(exception)?;
     Ok(FalseColour { scale, unit: unit.to_owned(), contours, smoothing, legend })
 }
 

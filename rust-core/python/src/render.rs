@@ -1,6 +1,12 @@
 //! A render as an iterator of tiles.
 
-use crate::{bake::BakedPlaces, error::exception, film::Film, memory, scene::Scene};
+use crate::{
+    bake::BakedPlaces,
+    error::{exception, told},
+    film::Film,
+    memory,
+    scene::Scene,
+};
 use crossbeam_channel::RecvTimeoutError;
 use gonio::{
     checkpoint::{Checkpoint, Identity, write_checkpoint},
@@ -258,8 +264,7 @@ impl Render {
     /// What is not as asked for, as (origin, message).
     #[getter]
     fn diagnostics(&self) -> Vec<(String, String)> {
-        let all = self.compiled.iter().flat_map(|compiled| &compiled.diagnostics);
-        all.map(|d| (d.origin.to_string(), d.message.clone())).collect()
+        told(self.compiled.iter().flat_map(|compiled| &compiled.diagnostics))
     }
     /// What path guiding has learned and whether it is followed, in words; None where guiding is off, or before.
     #[getter]

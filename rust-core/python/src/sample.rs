@@ -2,7 +2,7 @@
 
 use crate::{
     array::Array,
-    error::{exception, setting},
+    error::{exception, setting, told},
     measured::MeasuredBsdf,
     scene::Scene,
     table,
@@ -96,7 +96,7 @@ impl SampleReading {
     /// What is not as asked for, as (origin, message).
     #[getter]
     fn diagnostics(&self) -> Vec<(String, String)> {
-        self.diagnostics.iter().map(|d| (d.origin.to_string(), d.message.clone())).collect()
+        told(&self.diagnostics)
     }
     fn __repr__(&self) -> String {
         format!("<gonio.SampleReading: {}, {:.1} M rays>", self.reading.basis.name, self.reading.paths as f64 * 1e-6)

@@ -5,7 +5,7 @@ use crate::{
     curves::{CurveBuffers, PointBuffers},
     daylight::{self, Daylight},
     description,
-    error::{exception, setting},
+    error::{exception, setting, told},
     field,
     measured::MeasuredBsdf,
     mesh::MeshBuffers,
@@ -464,7 +464,7 @@ impl Scene {
     /// What is not as asked for, as (origin, message).
     #[getter]
     fn diagnostics(&self) -> Vec<(String, String)> {
-        self.diagnostics.iter().map(|d| (d.origin.to_string(), d.message.clone())).collect()
+        told(&self.diagnostics)
     }
 
     /// The scene as nested dictionaries and lists.
@@ -485,7 +485,7 @@ impl Scene {
     /// What pickles, copies and other processes make the same scene of.
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyAny>,))> {
         let bytes = py.detach(|| scene::to_bundle(&self.scene)).map_err(exception)?;
-        let diagnostics: Vec<_> = self.diagnostics.iter().map(|d| (d.origin.to_string(), d.message.clone())).collect();
+        let diagnostics = told(&self.diagnostics);
         let arguments = ("_of_bundle", PyBytes::new(py, &bytes), self.cameras_have_shape, diagnostics);
         let make = py.import("operator")?.getattr("methodcaller")?.call1(arguments)?;
         Ok((make, (py.import("gonio.scene")?.getattr("Scene")?,)))

@@ -2,7 +2,7 @@
 
 use crate::{
     array::Array,
-    error::{exception, setting},
+    error::{exception, setting, told},
     pass::Pass,
     scene::Scene,
     watched::{unless, watched},
@@ -69,6 +69,5 @@ pub(crate) fn spectral_picture(py: Python<'_>, scene: &Scene, band: f64, cancell
         let mut watch = Watch { previous: None, cancel: stop, progress };
         engine::spectral_picture(&description, bands, Execution::detect(), &mut watch)
     })?;
-    let diagnostics = diagnostics.iter().map(|found| (found.origin.to_string(), found.message.clone())).collect();
-    Ok(SpectralPicture { found, diagnostics })
+    Ok(SpectralPicture { found, diagnostics: told(&diagnostics) })
 }

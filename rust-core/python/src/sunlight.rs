@@ -1,7 +1,7 @@
 //! When the sun shines on points.
 
 use crate::{
-    error::{exception, setting},
+    error::{exception, setting, told},
     scene::Scene,
     watched::{unless, watched},
 };
@@ -63,7 +63,6 @@ pub(crate) fn sunlight<'py>(
     described.set_item("possible", found.possible_hours())?;
     let sun: Vec<[f64; 3]> = found.suns.iter().map(|(hour, sun)| [*hour, sun.azimuth_deg, sun.elevation_deg]).collect();
     described.set_item("sun", sun)?;
-    let told: Vec<(String, String)> = diagnostics.iter().map(|found| (found.origin.to_string(), found.message.clone())).collect();
-    described.set_item("diagnostics", told)?;
+    described.set_item("diagnostics", told(&diagnostics))?;
     Ok(described)
 }

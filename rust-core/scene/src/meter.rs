@@ -50,6 +50,9 @@ impl Measurand {
         (Self::Ugr, "ugr"),
     ];
 
+    /// Those that say something of the light's spectrum and not how much there is.
+    pub const OF_COLOUR: [Self; 5] = [Self::Cct, Self::Duv, Self::Ra, Self::Rf, Self::Rg];
+
     /// The name.
     pub fn name(self) -> &'static str {
         Self::NAMES.iter().find(|(known, _)| *known == self).map_or("", |(_, name)| name)
@@ -68,9 +71,9 @@ impl Measurand {
             Self::Duv | Self::Ra | Self::Rf | Self::Rg | Self::Ugr => "",
         }
     }
-    /// Whether it says something of the light's spectrum and not how much there is.
+    /// Whether it is one of [`Self::OF_COLOUR`].
     pub fn is_of_colour(self) -> bool {
-        matches!(self, Self::Cct | Self::Duv | Self::Ra | Self::Rf | Self::Rg)
+        Self::OF_COLOUR.contains(&self)
     }
     /// Whether the colour of a lamp does not tell it.
     pub fn wants_spectra(self) -> bool {

@@ -29,9 +29,8 @@ pub(super) fn operated(groups: &[GroupLight], steps: usize, closed: impl Fn(usiz
         found[*group] = Some(Operated { light: closed(*group), steps: vec![false; steps] });
     }
     for step in (0..steps).filter(|step| too_sunny[*step]) {
-        let choice = Choice::new(groups, &found, (&operable, steps, step));
-        for (number, group) in operable.iter().enumerate() {
-            if let (true, Some(operated)) = (choice.closes(number), &mut found[*group]) {
+        for group in Step::new(groups, &found, steps, step).closed(&operable) {
+            if let Some(operated) = &mut found[group] {
                 operated.steps[step] = true;
             }
         }
@@ -64,61 +63,75 @@ fn is_too_many(count: usize, points: usize) -> bool {
     count as f64 > TOO_MANY * points as f64
 }
 
-/// Which groups close in a step, a bit each.
-struct Choice {
-    closed: usize,
+/// The groups in a step.
+struct Step {
+    /// By group, the direct sun at each point; empty where it is not known.
+    suns: Vec<Vec<f32>>,
+    /// By group, what closing it takes away.
+    costs: Vec<f64>,
 }
 
-impl Choice {
-    fn closes(&self, number: usize) -> bool {
-        self.closed >> number & 1 != 0
-    }
-
-    fn new(groups: &[GroupLight], closed: &[Option<Operated>], (operable, steps, step): (&[usize], usize, usize)) -> Self {
+impl Step {
+    fn new(groups: &[GroupLight], closed: &[Option<Operated>], steps: usize, step: usize) -> Self {
         let column = |rows: &[f32]| -> Vec<f32> { rows.iter().skip(step).step_by(steps).copied().collect() };
-        let sun = |group: usize| groups[group].direct.as_deref().map(column).unwrap_or_default();
-        // Of groups that cannot close, and of each that can.
-        let always = (0..groups.len()).filter(|group| !operable.contains(group)).map(sun).fold(Vec::new(), |all: Vec<f32>, one| {
-            if all.is_empty() { one } else { all.iter().zip(one.iter().chain(std::iter::repeat(&0.0))).map(|(a, b)| a + b).collect() }
-        });
-        let suns: Vec<Vec<f32>> = operable.iter().map(|group| sun(*group)).collect();
-        let points = suns.first().map_or(0, Vec::len);
-        let is_sunny = |mask: usize, point: usize| {
-            let of_open = suns.iter().enumerate().filter(|(number, _)| mask >> number & 1 == 0).map(|(_, sun)| sun[point]);
-            always.get(point).copied().unwrap_or(0.0) + of_open.sum::<f32>() >= TOO_BRIGHT
-        };
-        let sunny = |mask: usize| (0..points).filter(|point| is_sunny(mask, *point)).count();
-        // What closing a group takes away.
-        let taken: Vec<f64> = operable
-            .iter()
-            .map(|group| {
-                let sum = |rows: &[f32]| rows.iter().skip(step).step_by(steps).map(|value| f64::from(*value)).sum::<f64>();
-                sum(&groups[*group].open) - closed[*group].as_ref().map_or(0.0, |closed| sum(&closed.light))
-            })
-            .collect();
-        let all = (1 << operable.len().min(usize::BITS as usize - 1)) - 1;
+        let sum = |rows: &[f32]| column(rows).into_iter().map(f64::from).sum::<f64>();
         let cost =
-            |mask: usize| taken.iter().enumerate().filter(|(number, _)| mask >> number & 1 != 0).map(|(_, taken)| taken).sum::<f64>();
-        if operable.len() > TRIED {
-            return Self { closed: one_by_one(operable.len(), points, sunny, cost) };
+            |(group, closed): (&GroupLight, &Option<Operated>)| closed.as_ref().map_or(0.0, |closed| sum(&group.open) - sum(&closed.light));
+        Self {
+            suns: groups.iter().map(|group| group.direct.as_deref().map(column).unwrap_or_default()).collect(),
+            costs: groups.iter().zip(closed).map(cost).collect(),
         }
-        let mut ways: Vec<(f64, usize)> = (0..=all).map(|mask| (cost(mask), mask)).collect();
-        ways.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        let enough = ways.into_iter().find(|(_, mask)| !is_too_many(sunny(*mask), points));
-        Self { closed: enough.map_or(all, |(_, mask)| mask) }
     }
-}
 
-/// Closes that group first which takes the sun from most points, of equals that which costs least.
-fn one_by_one(count: usize, points: usize, sunny: impl Fn(usize) -> usize, cost: impl Fn(usize) -> f64) -> usize {
-    let mut mask = 0;
-    while is_too_many(sunny(mask), points) {
-        let next = (0..count).map(|number| mask | 1 << number).filter(|more| *more != mask);
-        let best = next.min_by(|a, b| sunny(*a).cmp(&sunny(*b)).then(cost(*a).total_cmp(&cost(*b))));
-        let Some(best) = best else { break };
-        mask = best;
+    /// Which of the groups that can close do.
+    fn closed(&self, operable: &[usize]) -> Vec<usize> {
+        if operable.len() > TRIED {
+            return self.one_by_one(operable);
+        }
+        let chosen =
+            |mask: u32| operable.iter().enumerate().filter(|(number, _)| mask >> number & 1 != 0).map(|(_, group)| *group).collect();
+        let mut ways: Vec<Vec<usize>> = (0..1 << operable.len()).map(chosen).collect();
+        ways.sort_by(|a, b| self.cost(a).total_cmp(&self.cost(b)));
+        ways.into_iter().find(|way| !self.is_too_sunny(way)).unwrap_or_else(|| operable.to_vec())
     }
-    mask
+
+    /// Closes that group first which takes the sun from most points, of equals that which costs least.
+    fn one_by_one(&self, operable: &[usize]) -> Vec<usize> {
+        let (mut closed, mut rest) = (Vec::new(), operable.to_vec());
+        while self.is_too_sunny(&closed) && !rest.is_empty() {
+            let sunny = |group: usize| self.sunny(&[closed.as_slice(), &[group]].concat());
+            let best = (0..rest.len()).min_by(|a, b| {
+                let [a, b] = [rest[*a], rest[*b]];
+                sunny(a).cmp(&sunny(b)).then(self.costs[a].total_cmp(&self.costs[b]))
+            });
+            closed.extend(best.map(|best| rest.remove(best)));
+        }
+        closed
+    }
+
+    fn cost(&self, closed: &[usize]) -> f64 {
+        closed.iter().map(|group| self.costs[*group]).sum()
+    }
+
+    /// Points with direct sun while these groups are closed.
+    fn sunny(&self, closed: &[usize]) -> usize {
+        let open: Vec<&[f32]> = self
+            .suns
+            .iter()
+            .enumerate()
+            .filter(|(group, sun)| !closed.contains(group) && !sun.is_empty())
+            .map(|(_, sun)| sun.as_slice())
+            .collect();
+        (0..self.points()).filter(|point| open.iter().map(|sun| sun[*point]).sum::<f32>() >= TOO_BRIGHT).count()
+    }
+
+    fn points(&self) -> usize {
+        self.suns.iter().map(Vec::len).max().unwrap_or(0)
+    }
+
+    fn is_too_sunny(&self, closed: &[usize]) -> bool {
+        is_too_many(self.sunny(closed), self.points())
+    }
 }
 
 #[cfg(test)]
@@ -157,5 +170,8 @@ mod tests {
         let groups: Vec<GroupLight> = (0..12).map(|number| group(2 * number..2 * number + 2, 500.0)).collect();
         let closed = which(&groups);
         assert_eq!(closed.iter().filter(|closed| **closed).count(), 11);
+        // More groups than a word has bits.
+        let one_point_each: Vec<GroupLight> = (0..80).map(|number| group(number..number + 1, 500.0)).collect();
+        assert_eq!(which(&one_point_each).iter().filter(|closed| **closed).count(), 78);
     }
 }

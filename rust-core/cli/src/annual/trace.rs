@@ -8,8 +8,7 @@ use super::{
 use crate::{
     arguments::AnnualOptions,
     file::{check_targets, print_path},
-    interrupt::goes_on,
-    measure::{apply_settings, author_grids},
+    measure::{apply_settings, author_grids, watched},
     messages::{list, print},
     progress::Reporter,
     render::{MOST_WARNINGS, stage_options, variants},
@@ -18,8 +17,6 @@ use crate::{
 use gonio::{
     Diagnostic, Result,
     annual::{AnnualGrid, AnnualTask, trace},
-    measure::Watch,
-    render::Progress,
     scene::{Integrator, Scene},
     sky::Frame,
 };
@@ -65,17 +62,10 @@ fn traced(
     scene: &Scene,
     grids: &[AnnualGrid],
     task: &AnnualTask<'_>,
-    mut reporter: Reporter,
+    reporter: Reporter,
     interrupted: &AtomicBool,
 ) -> Result<(Vec<Group>, Vec<Diagnostic>)> {
-    let mut progress = |progress: &Progress| {
-        reporter.show(progress);
-        goes_on(interrupted)
-    };
-    let mut watch = Watch { previous: None, cancel: interrupted, progress: &mut progress };
-    let found = trace(scene, grids, task, Execution::detect(), &mut watch);
-    reporter.clear();
-    found
+    watched(reporter, None, interrupted, |watch| trace(scene, grids, task, Execution::detect(), watch))
 }
 
 /// The stage with some more variants chosen.

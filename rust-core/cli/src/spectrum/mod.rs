@@ -21,7 +21,7 @@ use serde_json::Value;
 use std::path::Path;
 
 /// The longest file in bytes: a thousand times the longest of a spectrometer.
-const LONGEST: u64 = 64 << 20;
+pub(super) const LONGEST: u64 = 64 << 20;
 
 /// A lamp as it was asked for, its spectrum and what that says.
 #[derive(Debug)]

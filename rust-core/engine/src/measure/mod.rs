@@ -62,27 +62,11 @@ pub struct Measurements {
 /// Grids that cannot be laid out, meters without a direction, more than [`MOST_POINTS`] points, what compiling finds, cancellation, and for
 /// daylight factors a scene without domes.
 pub fn measure(scene: &Scene, execution: Execution, watch: &mut Watch<'_>) -> Result<Measurements> {
-    let mut count = scene.meters.len();
-    let laid_out = |grid| {
-        let points = GridPoints::new(scene, grid)?;
-        count += points.known().count();
-        if count > MOST_POINTS {
-            return Err(Error::setting("grids", format!("more than {MOST_POINTS} points in all; take a wider spacing")));
-        }
-        Ok(points)
-    };
-    let grids = scene.grids.iter().map(laid_out).collect::<Result<Vec<_>>>()?;
+    let grids = GridPoints::of_scene(scene)?;
     let at_grids = scene.grids.iter().zip(&grids).flat_map(|(grid, points)| {
-        let meter = |position| Meter {
-            origin: grid.origin.clone(),
-            position,
-            normal: points.normal,
-            facing: grid.facing,
-            measurand: grid.measurand,
-        };
         // Points stand for no more than their cells.
         let reach = 0.5 * points.spacing[0].min(points.spacing[1]);
-        points.known().map(move |position| (meter(position), reach))
+        points.meters(grid).map(move |meter| (meter, reach))
     });
     let (meters, reaches): (Vec<Meter>, Vec<f64>) = scene.meters.iter().map(|meter| (meter.clone(), f64::INFINITY)).chain(at_grids).unzip();
     let mut diagnostics = Vec::new();

@@ -21,10 +21,7 @@ impl GridReading {
     /// # Errors
     /// As [`FalseColourScale::new`].
     pub fn scale(&self, max: Option<f32>, steps: u32, decades: Option<f32>) -> Result<FalseColourScale> {
-        let values = self.values();
-        let round = || FalseColourScale::round_max(&values);
-        let scale = FalseColourScale::new(max.unwrap_or_else(round), steps, decades)?;
-        Ok(if self.measurand.is_of_colour() && max.is_none() { FalseColourScale::around(&values, steps) } else { scale })
+        FalseColourScale::of_values(&self.values(), max, steps, decades, self.measurand.is_of_colour())
     }
 }
 

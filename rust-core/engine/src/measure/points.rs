@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     error::{Error, Result},
-    scene::{Grid, GridArea, MeshId, Scene, Transform},
+    scene::{Grid, GridArea, MeshId, Meter, Scene, Transform},
 };
 
 /// Most points of all grids and meters of a scene.
@@ -43,6 +43,34 @@ impl GridPoints {
             GridArea::Rectangle { corner, edges } => rectangle(grid, *corner, *edges),
             GridArea::Mesh { mesh, transform } => self::mesh(scene, grid, *mesh, transform),
         }
+    }
+
+    /// The points as the grid's meters.
+    pub fn meters<'a>(&'a self, grid: &'a Grid) -> impl Iterator<Item = Meter> + 'a {
+        self.known().map(|position| Meter {
+            origin: grid.origin.clone(),
+            position,
+            normal: self.normal,
+            facing: grid.facing,
+            measurand: grid.measurand,
+        })
+    }
+
+    /// Lays a scene's grids out, beside its meters.
+    ///
+    /// # Errors
+    /// As [`Self::new`], or more than [`MOST_POINTS`] points in all.
+    pub fn of_scene(scene: &Scene) -> Result<Vec<Self>> {
+        let mut count = scene.meters.len();
+        let laid_out = |grid| {
+            let points = Self::new(scene, grid)?;
+            count += points.known().count();
+            if count > MOST_POINTS {
+                return Err(Error::setting("grids", format!("more than {MOST_POINTS} points in all; take a wider spacing")));
+            }
+            Ok(points)
+        };
+        scene.grids.iter().map(laid_out).collect()
     }
 
     /// Where the points are.

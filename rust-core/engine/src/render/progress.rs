@@ -1,6 +1,6 @@
 //! How far a render is.
 
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// A snapshot of a render's progress.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,4 +17,13 @@ pub struct Progress {
     pub remaining: Option<Duration>,
     /// Rays traced, shadow rays among them.
     pub rays: u64,
+}
+
+impl Progress {
+    /// That of a whole of which so many equal parts are done, and this is the progress of the next; the whole began at `start`.
+    pub(crate) fn of_whole(&self, done: usize, parts: usize, start: Instant) -> Self {
+        let (fraction, elapsed) = ((done as f64 + self.fraction) / parts as f64, start.elapsed());
+        let remaining = (fraction > 0.0).then(|| elapsed.mul_f64(1.0 / fraction - 1.0));
+        Self { fraction, elapsed, remaining, ..*self }
+    }
 }

@@ -62,7 +62,7 @@ pub(in super::super) fn colours(
         bands,
         places: &places,
         execution,
-        steps: (sources.len() * bands.count()) as u32 * ROUNDS,
+        steps: sources.len() * bands.count() * ROUNDS as usize,
         done: 0,
         start: Instant::now(),
         first: None,
@@ -101,8 +101,8 @@ struct Sweep<'a> {
     places: &'a [Probe],
     execution: Execution,
     /// How many measurements there will be, and have been.
-    steps: u32,
-    done: u32,
+    steps: usize,
+    done: usize,
     start: Instant,
     /// What stands around the first.
     first: Option<Sensed>,
@@ -111,9 +111,8 @@ struct Sweep<'a> {
 impl Sweep<'_> {
     /// By place and round, the source's lx in each band.
     fn of_source(&mut self, source: &SourceScene, watch: &mut Watch<'_>, diagnostics: &mut Vec<Diagnostic>) -> Result<Vec<Vec<Vec<f64>>>> {
-        let mut scene = source.scene.clone();
-        scene.settings.spectral = true;
-        let compiled = compile(&scene, watch.previous, watch.cancel)?;
+        let scene = &source.scene;
+        let compiled = compile(scene, watch.previous, watch.cancel)?;
         if self.first.is_none() {
             diagnostics.extend(compiled.diagnostics.iter().cloned());
         }
@@ -126,13 +125,8 @@ impl Sweep<'_> {
             for round in 0..ROUNDS {
                 let seed = scene.settings.seed.wrapping_add(APART.wrapping_mul(round));
                 let settings = Settings { samples, seed, ..scene.settings.clone() };
-                let (done, steps) = (f64::from(self.done), f64::from(self.steps));
-                let start = self.start;
-                let mut progress = |part: &Progress| {
-                    let (fraction, elapsed) = ((done + part.fraction) / steps, start.elapsed());
-                    let remaining = (fraction > 0.0).then(|| elapsed.mul_f64(1.0 / fraction - 1.0));
-                    (watch.progress)(&Progress { fraction, elapsed, remaining, ..*part })
-                };
+                let Self { done, steps, start, .. } = *self;
+                let mut progress = |part: &Progress| (watch.progress)(&part.of_whole(done, steps, start));
                 let mut watch = Watch { previous: None, cancel: watch.cancel, progress: &mut progress };
                 let mut sensed = plan.follow(at_band, Effort::of_part(samples), &settings, self.execution, &mut watch)?;
                 let readings = std::mem::take(&mut sensed.readings);

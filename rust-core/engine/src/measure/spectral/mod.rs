@@ -36,5 +36,9 @@ fn check_spectra(scene: &Scene, of: &Origin, figures: &str, diagnostics: &mut Ve
 
 /// Lights that shine without a spectrum.
 fn without_spectra(scene: &Scene) -> impl Iterator<Item = &Light> {
-    scene.lights.iter().filter(|light| light.spectrum.is_none() && !light.portal && light.dimming != 0.0)
+    scene.lights.iter().filter(|light| light.spectrum.is_none() && shines(light))
+}
+
+fn shines(light: &Light) -> bool {
+    !light.portal && light.dimming != 0.0
 }

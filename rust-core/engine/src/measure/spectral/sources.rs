@@ -1,5 +1,6 @@
 //! A scene's light by what sends it: the spectra of its lamps, each once, and daylight D65, whose colours all other light has.
 
+use super::{shines, without_spectra};
 use crate::{
     error::{Error, Result},
     scene::{LampSpectrum, Light, Scene},
@@ -7,7 +8,7 @@ use crate::{
 use gonio_spectrum::{Spectrum, named};
 use std::sync::Arc;
 
-/// Light of one spectrum alone.
+/// Light of one spectrum alone, with wavelengths.
 pub(super) struct SourceScene {
     /// What of the scene shines with it.
     pub(super) scene: Scene,
@@ -26,9 +27,9 @@ pub(super) fn by_spectrum(scene: &Scene) -> Result<Vec<SourceScene>> {
         }
     }
     let of_lamps = known.iter().map(|spectrum| of_lamp(scene, spectrum)).collect::<Result<Vec<_>>>()?;
-    let others = alone(scene, |light| light.spectrum.is_none());
-    let has_others = others.lights.iter().any(shines) || known.is_empty() || scene.shines_without_lights();
-    let daylight = if has_others { Some(SourceScene { scene: others, spectrum: daylight()? }) } else { None };
+    let has_others = known.is_empty() || without_spectra(scene).next().is_some() || scene.shines_without_lights();
+    let of_daylight = || Ok(SourceScene { scene: alone(scene.clone(), |light| light.spectrum.is_none()), spectrum: daylight()? });
+    let daylight: Option<SourceScene> = has_others.then(of_daylight).transpose()?;
     Ok(of_lamps.into_iter().chain(daylight).collect())
 }
 
@@ -37,19 +38,14 @@ fn of_lamp(scene: &Scene, spectrum: &Arc<LampSpectrum>) -> Result<SourceScene> {
     let origin = scene.lights.iter().find(|light| is_of(light)).map(|light| light.origin.clone()).unwrap_or_default();
     let found = Spectrum::new(&spectrum.name, &spectrum.wavelengths_nm, &spectrum.power);
     let spectrum = found.map_err(|error| Error::scene(&origin, format!("its spectrum cannot be used: {error}")))?;
-    let lit = alone(scene, is_of);
-    Ok(SourceScene { scene: Scene { lights: lit.lights, ..scene.without_emission() }, spectrum })
+    Ok(SourceScene { scene: alone(scene.without_emission(), is_of), spectrum })
 }
 
 /// With the lights that are wanted, and portals, which let their light in.
-fn alone(scene: &Scene, wanted: impl Fn(&Light) -> bool) -> Scene {
-    let mut alone = scene.clone();
-    alone.lights.retain(|light| light.portal || wanted(light));
-    alone
-}
-
-fn shines(light: &Light) -> bool {
-    !light.portal && light.dimming != 0.0
+fn alone(mut scene: Scene, wanted: impl Fn(&Light) -> bool) -> Scene {
+    scene.settings.spectral = true;
+    scene.lights.retain(|light| light.portal || wanted(light));
+    scene
 }
 
 fn daylight() -> Result<Spectrum> {

@@ -49,6 +49,16 @@ impl FalseColourScale {
         Ok(Self { edges })
     }
 
+    /// A scale for values: up to `max`, or where none is asked for to a round greatest value, or of quantities whose 0 means nothing from the least to the
+    /// greatest.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn of_values(values: &[f32], max: Option<f32>, steps: u32, decades: Option<f32>, zero_means_nothing: bool) -> Result<Self> {
+        let scale = Self::new(max.unwrap_or_else(|| Self::round_max(values)), steps, decades)?;
+        Ok(if zero_means_nothing && max.is_none() { Self::around(values, steps) } else { scale })
+    }
+
     /// About so many even steps of a round width (1, 2 or 5 times a power of ten) from the least to the greatest of the values (99 % of many),
     /// for quantities whose 0 means nothing.
     pub fn around(values: &[f32], steps: u32) -> Self {
