@@ -55,7 +55,11 @@ impl FarField {
 
     /// Luminous intensity in cd, and the greatest luminance of an emitter in cd/m² (0 for points), towards a direction in the luminaire's frame.
     pub fn towards(&self, direction: [f64; 3]) -> [f64; 2] {
-        let world: [f64; 3] = std::array::from_fn(|k| (0..3).map(|axis| self.frame[axis][k] * direction[axis]).sum());
+        self.in_direction(std::array::from_fn(|k| (0..3).map(|axis| self.frame[axis][k] * direction[axis]).sum()))
+    }
+
+    /// The same towards a direction of length 1 in world space.
+    pub fn in_direction(&self, world: [f64; 3]) -> [f64; 2] {
         let mut total = [0.0; 2];
         for (part, area) in self.areas.iter().enumerate() {
             let shown = area.map_or(1.0, |area| area.towards(world));

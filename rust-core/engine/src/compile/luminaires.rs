@@ -7,7 +7,7 @@ use super::{
     quantity::{self, FarFields},
 };
 use crate::{
-    light::{LightRecord, LightTable, LightTexture},
+    light::{FarField, LightRecord, LightTable, LightTexture},
     scene::{Light, Scene},
 };
 
@@ -23,6 +23,20 @@ pub fn luminous_fluxes(scene: &Scene) -> Vec<Option<f64>> {
         })
     };
     scene.lights.iter().map(flux).collect()
+}
+
+/// Luminous intensities in cd, dimming included, of each of the scene's lights as [`luminous_fluxes`] has them, towards directions of length 1.
+pub fn luminous_intensities(scene: &Scene, directions: &[[f64; 3]]) -> Vec<Option<Vec<f64>>> {
+    let mut goniograms = CompiledGoniograms::default();
+    let mut far_fields = FarFields::default();
+    let intensities = |light: &Light| {
+        is_luminaire(light).then(|| {
+            let records = records(light, [0.0; 3], &mut goniograms, &mut far_fields);
+            let far_field = FarField::new(&records, &goniograms.tables);
+            directions.iter().map(|direction| far_field.in_direction(*direction)[0]).collect()
+        })
+    };
+    scene.lights.iter().map(intensities).collect()
 }
 
 /// A light as an eye sees it.

@@ -66,7 +66,7 @@ pub use bounds::Bounds;
 pub(crate) use casters::Casters;
 pub use compiled::{CompileStatistics, CompiledScene};
 pub(crate) use dice::is_diced;
-pub use luminaires::luminous_fluxes;
+pub use luminaires::{luminous_fluxes, luminous_intensities};
 pub(crate) use luminaires::{Luminaire, is_luminaire, luminaires};
 pub use view::View;
 pub(crate) use view::{check_tiles, picture_view, transport, window};
