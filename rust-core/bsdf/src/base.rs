@@ -113,7 +113,16 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
         let (base, edge) = (self.reflectance(p::BASE_COLOR).saturate(), self.reflectance(p::METAL_EDGE_TINT).saturate());
         let curve = match self.surface.switches.metal {
             Metal::F82 => Curve::f82(base, edge),
-            Metal::Conductor => Curve::Conductor { n: self.coefficient(p::METAL_N), k: self.coefficient(p::METAL_K) },
+            Metal::Conductor => {
+                let [n, k] = match self.surface.metal.and_then(
+                    #[inline(always)]
+                    |row| self.wavelengths().metal(row),
+                ) {
+                    Some(index) => index,
+                    None => [self.coefficient(p::METAL_N), self.coefficient(p::METAL_K)],
+                };
+                Curve::Conductor { n, k }
+            }
             Metal::Gulbrandsen => Curve::gulbrandsen(base, edge),
             Metal::Schlick => Curve::Schlick { f0: base, f90: edge },
         };

@@ -73,6 +73,8 @@ pub struct Surface {
     pub lobes: LobeSet,
     /// What [`Closure::Measured`] shows, or what lies under the layers.
     pub measured: Option<Arc<MeasuredBsdf>>,
+    /// The row of its metal in the table of wavelengths; without one, and where light is colour, n and k are parameters.
+    pub metal: Option<u32>,
 }
 
 impl Surface {
@@ -80,7 +82,7 @@ impl Surface {
     pub fn new(constants: [f32; COUNT], varying: &[bool; COUNT], switches: Switches) -> Self {
         let reach = Reach { constants: &constants, varying };
         let lobes = if switches.closure == Closure::Layered { reach.layered(&switches) } else { reach.single(&switches) };
-        Self { constants, switches, lobes, measured: None }
+        Self { constants, switches, lobes, measured: None, metal: None }
     }
 
     /// Compiles a surface that shows a measurement: alone, or under the coat and the fuzz of a layered one in place of the base.

@@ -29,6 +29,7 @@ mod material;
 mod measured;
 mod medium;
 mod mesh;
+mod metal_index;
 mod meter;
 mod origin;
 mod points;
@@ -69,6 +70,7 @@ pub use material::{Closure, Distribution, FibreDirection, Material, Model, Shade
 pub use measured::MeasuredBsdf;
 pub use medium::{HAZE_ANISOTROPY, Medium, Phase, VISIBILITY_CONTRAST};
 pub use mesh::{Mesh, MeshKey, Primvar, PrimvarInterpolation};
+pub use metal_index::MetalIndex;
 pub use meter::{Grid, GridArea, Measurand, Meter};
 pub use origin::Origin;
 pub use points::{PointKey, PointShape, Points, point_key_problem};

@@ -1,8 +1,9 @@
 //! Materials: a surface model with parameters that are constants or outputs of a node graph.
 
-use super::{Displacement, MeasuredId, Medium, Origin};
+use super::{Displacement, MeasuredId, Medium, MetalIndex, Origin};
 use gonio_nodes::{Graph, Input, NodeId};
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// The model whose rules a closure's parameters follow; parameter names are those of the surface's parameter block for all of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -144,6 +145,9 @@ pub struct Closure {
     /// What [`Model::Measured`] shows; without it that is grey. Of [`Model::OpenPbr`] it is the base under coat and fuzz, with the same
     /// meaning of `base_color`, `specular_scale` and `specular_rotation`.
     pub measured: Option<MeasuredId>,
+    /// The metal that metallic parts are of, in place of their colours and of `metal_n` and `metal_k`; where `metalness` is not set it is 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub metal: Option<Arc<MetalIndex>>,
 }
 
 impl Default for Closure {
@@ -162,6 +166,7 @@ impl Default for Closure {
             distribution: Distribution::default(),
             subsurface: SubsurfaceMethod::default(),
             measured: None,
+            metal: None,
         }
     }
 }

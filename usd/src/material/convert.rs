@@ -4,7 +4,7 @@ use super::network::Network;
 use super::neutral::NodeIndex;
 use super::outputs::{output_name, render_contexts};
 use super::surface::straight;
-use super::{displaced, from_usd, surface, volume};
+use super::{displaced, from_usd, metal, surface, volume};
 use crate::context::Context;
 use crate::prim::Prim;
 use crate::pxr::Module;
@@ -27,8 +27,9 @@ pub(super) fn convert<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, pat
         let document = from_usd::read(surface, &context.time);
         let mut network = Network::new(context, document);
         let shader = network.shader(NodeIndex(0));
-        if let Some(closures) = surface::convert(&mut network, &shader) {
+        if let Some(mut closures) = surface::convert(&mut network, &shader) {
             let mut graph = network.graph;
+            metal::apply(context, prim, &mut closures);
             let displacement = displaced::read(context, prim, &mut graph);
             return Some(Material { origin, closures, graph, displacement, medium: medium.unwrap_or_default(), ..Material::default() });
         }

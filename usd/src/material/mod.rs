@@ -18,6 +18,7 @@ mod host;
 mod inputs;
 mod library;
 mod materialx;
+mod metal;
 mod mtlx;
 mod network;
 mod neutral;

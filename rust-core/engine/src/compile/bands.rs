@@ -46,7 +46,7 @@ impl BandedScene {
     pub(crate) fn at(&mut self, band: usize) -> Result<&Arc<CompiledScene>> {
         let busy = || Error::Internal("the scene of one band of wavelengths is in use while the next is asked for".to_owned());
         let scene = Arc::get_mut(&mut self.scene).ok_or_else(busy)?;
-        scene.tables.wavelengths = Some(Arc::new(scene.spectra.table_of_band(self.bands, band, &self.lamps)));
+        scene.tables.wavelengths = Some(Arc::new(scene.spectra.table_of_band(self.bands, band, &self.lamps, &scene.metals)));
         scene.tables.materials.media = self.media.seen(|colour| [self.bands.of_colour(band, colour); 3]);
         Ok(&self.scene)
     }

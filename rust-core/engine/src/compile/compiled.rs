@@ -3,7 +3,7 @@
 use super::fields::KeptFields;
 use super::{
     bounds::Bounds, casters::Casters, dice::KeptDiced, displace::KeptDisplaced, kept::KeptImages, lights::KeptLights,
-    measured::CompiledMeasured,
+    measured::CompiledMeasured, metals::Metals,
 };
 use super::{primvars, smooth::KeptSmooth, trees::KeptTree, wavelengths::LampSpectra};
 use crate::{
@@ -37,6 +37,8 @@ pub struct CompiledScene {
     pub(super) primvars: Vec<String>,
     /// Spectra of its lamps.
     pub(super) spectra: LampSpectra,
+    /// Its metals.
+    pub(super) metals: Metals,
     /// What renders leave for the next.
     pub(crate) workspaces: Arc<Workspaces>,
     /// What it was made of.

@@ -6,6 +6,7 @@ use super::{
     fields::KeptFields,
     materials,
     measured::{self, CompiledMeasured},
+    metals::Metals,
     primvars,
     textures::{self, CompiledTextures},
 };
@@ -21,6 +22,7 @@ use std::sync::atomic::AtomicBool;
 pub(super) struct Looks {
     pub(super) textures: CompiledTextures,
     pub(super) measured: CompiledMeasured,
+    pub(super) metals: Metals,
     /// Names of the primvars that programs read.
     pub(super) names: Vec<String>,
     pub(super) materials: MaterialTable,
@@ -32,9 +34,10 @@ impl Looks {
     pub(super) fn compile(scene: &Scene, kept: &Kept, cancel: &AtomicBool, diagnostics: &mut Vec<Diagnostic>) -> Result<Self> {
         let textures = textures::compile(scene, &kept.images, cancel, diagnostics)?;
         let measured = measured::compile(scene, &kept.measured, diagnostics);
+        let metals = Metals::of(scene, diagnostics);
         let names = primvars::used_names(scene, &measured);
-        let (materials, fields) = materials::compile(scene, &textures, &measured, &names, &kept.fields, diagnostics)?;
-        Ok(Self { textures, measured, names, materials, fields })
+        let (materials, fields) = materials::compile(scene, &textures, (&measured, &metals), &names, &kept.fields, diagnostics)?;
+        Ok(Self { textures, measured, metals, names, materials, fields })
     }
 
     /// What displacement reads.

@@ -8,6 +8,7 @@ mod program;
 use super::{
     fields::{self, KeptFields},
     measured::CompiledMeasured,
+    metals::{self, Metals},
     standard_passes,
     textures::CompiledTextures,
 };
@@ -20,7 +21,8 @@ use crate::{
 };
 pub(super) use displacement::{displaces, program, pruned};
 use gonio_nodes::{Channel, Operand, Value};
-use parameters::{Parameters, WEIGHT, tell_weights};
+pub(super) use parameters::Parameters;
+use parameters::{WEIGHT, tell_weights};
 use program::{CompiledGraph, asks_for_ray, compile_graph, sampled_program};
 
 /// Reflectance of surfaces without a material, and of measured ones without a measurement.
@@ -30,7 +32,7 @@ const DEFAULT_REFLECTANCE: [f32; 3] = [0.18; 3];
 pub(super) fn compile(
     scene: &Scene,
     textures: &CompiledTextures,
-    measured: &CompiledMeasured,
+    known: (&CompiledMeasured, &Metals),
     names: &[String],
     kept: &KeptFields,
     diagnostics: &mut Vec<Diagnostic>,
@@ -48,13 +50,14 @@ pub(super) fn compile(
         }
         let graph = compile_graph(material, textures, names)?;
         tell_weights(material, &graph, diagnostics);
+        metals::tell_unused(material, diagnostics);
         let interior = media::add(&material.medium, &material.origin, &usable, &mut table.media, diagnostics);
         for closure in &material.closures {
             let solid_medium = match closure.thin_walled {
                 true => None,
                 false => media::add(&closure.solid, &material.origin, &usable, &mut table.media, diagnostics),
             };
-            table.surfaces.push(SurfaceMaterial { interior, solid_medium, ..surface(material, closure, measured, &graph, diagnostics) });
+            table.surfaces.push(SurfaceMaterial { interior, solid_medium, ..surface(material, closure, known, &graph, diagnostics) });
         }
         if !material.shader_outputs.is_empty() {
             table.shader_outputs.push(shader_outputs(material, &graph, first as usize));
@@ -153,7 +156,7 @@ fn constant(value: &[Operand; 4], [low, high]: [f32; 2]) -> Option<[f32; 3]> {
 fn surface(
     material: &Material,
     closure: &Closure,
-    measured: &CompiledMeasured,
+    (measured, metals): (&CompiledMeasured, &Metals),
     graph: &CompiledGraph,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> SurfaceMaterial {
@@ -161,11 +164,15 @@ fn surface(
     if closure.model == Model::Measured && measured.is_none() {
         let mut grey = Closure { model: Model::Diffuse, parameters: Vec::new(), ..closure.clone() };
         grey.set_colour("base_color", DEFAULT_REFLECTANCE);
-        return surface(material, &grey, &CompiledMeasured::default(), graph, diagnostics);
+        return surface(material, &grey, (&CompiledMeasured::default(), metals), graph, diagnostics);
     }
-    let switches = switches_of(closure);
-    let Parameters { constants, varying, outputs, sampled } =
-        Parameters::new(material, closure, (&switches, measured.is_some()), graph, diagnostics);
+    let mut switches = switches_of(closure);
+    let mut parameters = Parameters::new(material, closure, (&switches, measured.is_some()), graph, diagnostics);
+    let metal = metals.row_of(closure);
+    if let Some(row) = metal {
+        metals.set(row, closure, &mut switches, &mut parameters);
+    }
+    let Parameters { constants, varying, outputs, sampled } = parameters;
     let mut wanted = Wanted { outputs, free_normal: switches.bump == Bump::Cycles, uv: graph.uv, ..Wanted::default() };
     let code = &graph.code;
     let direction = |node: Option<NodeId>| node.map(|node| code.value(Input::Node(node, Channel::Rgb)));
@@ -179,7 +186,7 @@ fn surface(
     program.light_path |= !material.shader_outputs.is_empty() && asks_for_ray(code);
     let surface = match measured {
         Some(measured) => Surface::measured(constants, &varying, switches, measured.clone()),
-        None => Surface::new(constants, &varying, switches),
+        None => Surface { metal, ..Surface::new(constants, &varying, switches) },
     };
     let lobes = surface.lobes;
     let exit = (lobes.walk && wanted.normal.is_some()).then(|| {

@@ -32,6 +32,7 @@ mod looks;
 mod luminaires;
 mod materials;
 mod measured;
+mod metals;
 mod motion;
 mod motion_vectors;
 mod numbers;
@@ -66,8 +67,8 @@ pub use bounds::Bounds;
 pub(crate) use casters::Casters;
 pub use compiled::{CompileStatistics, CompiledScene};
 pub(crate) use dice::is_diced;
-pub use luminaires::{luminous_fluxes, luminous_intensities};
 pub(crate) use luminaires::{Luminaire, is_luminaire, luminaires};
+pub use luminaires::{luminous_fluxes, luminous_intensities};
 pub use view::View;
 pub(crate) use view::{check_tiles, picture_view, transport, window};
 
@@ -115,7 +116,7 @@ fn laid_out(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicBool
     let (of_light, kept_lights) = (mem::take(&mut lights.of_light), mem::take(&mut lights.kept));
     let spectra = mem::take(&mut lights.spectra);
     let mut tables = tables(scene, bvh, &mut looks, &mut shapes, lights);
-    tables.wavelengths = spectra.table(scene);
+    tables.wavelengths = spectra.table(scene, &looks.metals);
     lamps_in_media::find(scene, &mut tables, &of_light, &mut diagnostics);
     let mut compiled = CompiledScene {
         tables,
@@ -128,6 +129,7 @@ fn laid_out(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicBool
         casters,
         primvars: looks.names,
         spectra,
+        metals: looks.metals,
         workspaces: previous.map(|p| p.workspaces.clone()).unwrap_or_default(),
         kept: Kept {
             trees: shapes.trees,

@@ -1,5 +1,6 @@
 //! What the wavelengths of paths mean: the table that kernels read, and the spectra of lamps.
 
+use super::metals::Metals;
 use crate::{
     colour::luminance_of_pixel,
     error::Diagnostic,
@@ -84,16 +85,18 @@ impl LampSpectra {
     }
 
     /// The table of wavelengths, where light is to have any.
-    pub(super) fn table(&self, scene: &Scene) -> Option<Arc<WavelengthTable>> {
+    pub(super) fn table(&self, scene: &Scene, metals: &Metals) -> Option<Arc<WavelengthTable>> {
         if !scene.settings.spectral {
             return None;
         }
         let plain = without_lamps();
-        if self.spectra.is_empty() && scene.settings.observer.is_luminous() {
+        let metals = metals.by_rotation();
+        if self.spectra.is_empty() && metals.is_empty() && scene.settings.observer.is_luminous() {
             return Some(plain.clone());
         }
         let lamps: Vec<f32> = self.spectra.iter().flat_map(|lamp| &lamp.values).copied().flat_map(quad).collect();
-        let mut table = WavelengthTable { lamps: column(&lamps), lamp_colours: self.colours(), ..(**plain).clone() };
+        let mut table =
+            WavelengthTable { lamps: column(&lamps), lamp_colours: self.colours(), metals: column(&metals), ..(**plain).clone() };
         if scene.settings.observer == Observer::Melanopic {
             let grey = |value: f32| quad([value; 3]);
             table.film = column(&triples().melanopic().into_iter().flatten().flat_map(grey).collect::<Vec<f32>>());
@@ -103,7 +106,7 @@ impl LampSpectra {
 
     /// The table of a single wavelength, in the middle of a band. All three components stand there, and each brings a third of what is seen: the
     /// light of the band as a grey, relative to D65's. `lamps` is [`Self::by_band`].
-    pub(super) fn table_of_band(&self, bands: &Bands, band: usize, lamps: &[Vec<f32>]) -> WavelengthTable {
+    pub(super) fn table_of_band(&self, bands: &Bands, band: usize, lamps: &[Vec<f32>], metals: &Metals) -> WavelengthTable {
         let place = ((bands.centre(band) - 380.0) / 400.0) as f32;
         let lamps: Vec<f32> = lamps.iter().flat_map(|lamp| quad([lamp[band]; 3])).collect();
         WavelengthTable {
@@ -112,6 +115,7 @@ impl LampSpectra {
             film: column(&[quad([1.0 / 3.0; 3]); 3].concat()),
             lamps: column(&lamps),
             lamp_colours: self.colours(),
+            metals: column(&metals.by_band(bands, band)),
             ..(**without_lamps()).clone()
         }
     }
@@ -164,6 +168,7 @@ fn plain() -> WavelengthTable {
         resolution: upsampling.resolution as u32,
         lamps: Column::new(0),
         lamp_colours: Column::new(0),
+        metals: Column::new(0),
     }
 }
 

@@ -28,6 +28,8 @@ pub struct WavelengthTable {
     pub lamps: Column,
     /// Linear Rec.709 of those spectra: a quad a lamp.
     pub lamp_colours: Column,
+    /// Indices of metals: for each rotation of each metal a quad of n and one of k.
+    pub metals: Column,
 }
 
 /// The wavelengths of a batch: rotations in a column. By default there are none.
@@ -117,6 +119,24 @@ impl<'a, L: Lanes> Wavelengths<'a, L> {
             Some(table) if spectrum.ne(0).any() => of_lamps(table, self.rotation, spectrum, colour),
             _ => self.radiance(colour),
         }
+    }
+    /// The index of the metal of a row: n and k, where light has wavelengths.
+    #[inline(always)]
+    pub fn metal(self, row: u32) -> Option<[Spectrum<L>; 2]> {
+        self.table.map(
+            #[inline(always)]
+            |table| {
+                let l = self.rotation.lanes();
+                let first = (self.rotation + row * table.rotations) * (2 * WORDS);
+                [first, first + WORDS].map(
+                    #[inline(always)]
+                    |place| {
+                        let [r, g, b, _] = l.gather_quads(&table.metals, place);
+                        Spectrum { r, g, b }
+                    },
+                )
+            },
+        )
     }
     /// Door for light: light as colour to be stored.
     #[inline(always)]

@@ -16,7 +16,7 @@ use gonio_nodes::{Operand, Value};
 pub(super) const WEIGHT: [f32; 2] = [0.0, 1.0];
 
 /// The parameters of a closure.
-pub(super) struct Parameters {
+pub(in super::super) struct Parameters {
     /// Numbers of the places that do not vary.
     pub(super) constants: [f32; parameter::COUNT],
     /// The places that do.
@@ -60,6 +60,14 @@ impl Parameters {
             }
         }
         made
+    }
+
+    /// Gives the places from `offset` on these numbers, whatever the closure says.
+    pub(in super::super) fn fix(&mut self, offset: usize, values: &[f32]) {
+        self.constants[offset..offset + values.len()].copy_from_slice(values);
+        self.varying[offset..offset + values.len()].fill(false);
+        self.outputs.retain(|output| output.offset != offset);
+        self.sampled.retain(|output| output.offset != offset);
     }
 
     /// Takes the numbers among a parameter's components, for a graph may give constants, too; says what was out of range.
