@@ -36,12 +36,13 @@ fn lines_with(folder: &str, needle: &str) -> Vec<String> {
 }
 
 /// Crates of the engine from the ground up, and which others of gonio each may use.
-const CRATES: [(&str, &[&str]); 22] = [
+const CRATES: [(&str, &[&str]); 23] = [
     ("simd", &[]),
     ("formats", &[]),
     ("spectrum", &["formats"]),
     ("volume", &[]),
     ("mesh", &[]),
+    ("emergency", &["formats"]),
     ("road", &["formats"]),
     ("sky", &[]),
     ("annual", &["formats", "simd", "sky"]),

@@ -3,6 +3,7 @@
 mod annual;
 mod area;
 mod colour;
+mod emergency;
 mod grids;
 mod modelling;
 mod object;
@@ -43,7 +44,7 @@ pub struct Measured {
 }
 
 impl Measured {
-    /// Reads what `gonio measure`, `gonio annual`, `gonio annual-metrics` and `gonio road` print with `--json`.
+    /// Reads what `gonio measure`, `gonio annual`, `gonio annual-metrics`, `gonio road` and `gonio emergency` print with `--json`.
     ///
     /// # Errors
     /// Bytes that are no JSON, or not that of one of these commands, with the file and what was found.
@@ -92,6 +93,8 @@ fn areas(bytes: &[u8], file: usize) -> Found<Vec<Area>> {
         annual::read(&whole, file)
     } else if has("l_av") && has("observers") {
         Ok(road::read(&whole, file))
+    } else if has("routes") && has("luminaires") {
+        emergency::read(&whole, file)
     } else {
         let found = listed(whole.keys().map(String::as_str));
         let found = if found.is_empty() { "nothing was found".to_owned() } else { format!("'{found}' were found") };

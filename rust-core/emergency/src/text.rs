@@ -1,0 +1,37 @@
+//! The figures as text.
+
+use crate::figures::{Figures, Lit, Reading};
+
+/// Lines for a terminal.
+pub fn lines(found: &Figures) -> Vec<String> {
+    let mut lines = vec![format!("direct light alone, times {:.3} for flux and maintenance", found.factor)];
+    for (name, centre, band) in &found.routes {
+        lines.push(format!("escape route {name}"));
+        lines.extend(of_lit("centre line", centre));
+        lines.extend(of_lit("central band", band));
+    }
+    for (name, lit) in &found.areas {
+        lines.push(format!("open area {name}"));
+        lines.extend(of_lit("within its border", lit));
+    }
+    lines.extend(found.places.iter().map(|(name, reading)| format!("place {name}: {}", told(*reading))));
+    let [from, to] = found.glare_deg;
+    if !found.lamps.is_empty() {
+        lines.push(format!("greatest intensity from {from}° to {to}° above nadir, with all flux"));
+    }
+    lines.extend(found.lamps.iter().map(|lamp| format!("  {}: {:.0} cd, {:.2} m above the floor", lamp.name, lamp.peak_cd, lamp.height)));
+    lines
+}
+
+fn of_lit(name: &str, lit: &Lit) -> Vec<String> {
+    let Some([least, most, mean]) = lit.ends() else { return vec![format!("  {name}: no point lies within")] };
+    let ratio = lit.max_to_min().map_or("without light at a point".to_owned(), |[ratio, error]| format!("{ratio:.1} : 1 (± {error:.1})"));
+    vec![
+        format!("  {name}, {} points: least {}, greatest {}, mean {}", lit.readings.len(), told(least), told(most), told(mean)),
+        format!("    greatest to least: {ratio}"),
+    ]
+}
+
+fn told(reading: Reading) -> String {
+    format!("{:.2} lx ± {:.2}", reading.lx, reading.error)
+}
