@@ -7,6 +7,8 @@ pub struct Chunk<'a> {
     pub steps: &'a [usize],
     /// Sky and sun, with blinds as they are operated.
     pub total: &'a [f32],
+    /// The block of the coefficients that this is without; `None` where it is of all.
+    pub without: Option<usize>,
     /// The sun alone, through open blinds; `None` where it is not known.
     pub direct: Option<&'a [f32]>,
 }

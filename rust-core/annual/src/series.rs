@@ -21,8 +21,11 @@ impl Series {
         Self { points, steps, total: vec![0.0; points * steps], direct: None }
     }
 
-    /// Takes a chunk over.
+    /// Takes a chunk of all blocks over.
     pub fn take(&mut self, chunk: &Chunk<'_>) {
+        if chunk.without.is_some() {
+            return;
+        }
         put_steps(&mut self.total, self.steps, chunk.steps, chunk.total);
         if let Some(direct) = chunk.direct {
             let all = self.direct.get_or_insert_with(|| vec![0.0; self.points * self.steps]);

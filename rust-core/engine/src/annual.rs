@@ -162,7 +162,7 @@ pub fn trace(
 }
 
 /// The coefficients of all points in a scene.
-fn coefficients(
+pub(crate) fn coefficients(
     scene: &Scene,
     points: &[Meter],
     task: &AnnualTask<'_>,
@@ -200,7 +200,7 @@ fn coefficients(
 }
 
 /// Rows of some of all points, in all rounds.
-fn matrix(rounds: &[Vec<f32>], all: usize, rows: Range<usize>) -> Result<Coefficients> {
+pub(crate) fn matrix(rounds: &[Vec<f32>], all: usize, rows: Range<usize>) -> Result<Coefficients> {
     let columns = rounds.first().map_or(0, Vec::len) / all.max(1);
     let blocks = rounds.iter().map(|round| round[rows.start * columns..rows.end * columns].to_vec()).collect();
     Coefficients::new(rows.len(), columns, blocks).map_err(|error| Error::setting("grids", error.to_string()))

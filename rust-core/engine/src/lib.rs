@@ -4,6 +4,7 @@
 //! tile into a film.
 
 pub mod annual;
+pub mod annual_glare;
 pub mod antialias;
 pub mod bake;
 pub mod checkpoint;

@@ -31,7 +31,8 @@ pub struct Settings {
     pub threads: usize,
 }
 
-/// Calculates a grid by its groups of windows, whose light adds up. `take` sees every chunk, and stops the calculation by `false`: then there is
+/// Calculates a grid by its groups of windows, whose light adds up. `take` sees every chunk, of all blocks and without each
+/// of them, and stops the calculation by `false`: then there is
 /// no result.
 ///
 /// # Errors
@@ -59,8 +60,8 @@ pub fn evaluate(
         let columns = columns::Columns::new(&skies, groups, &shape, steps, settings.threads);
         for (index, (prepared, counts)) in variants.iter_mut().enumerate() {
             let (total, direct) = prepared::light(prepared, &columns, settings.threads);
-            let chunk = Chunk { steps, total: &total, direct: direct.as_deref() };
-            if index == 0 && !take(&chunk) {
+            let chunk = Chunk { steps, total: &total, direct: direct.as_deref(), without: index.checked_sub(1) };
+            if !take(&chunk) {
                 return Ok(None);
             }
             counts.add(&chunk, schedule, &half);

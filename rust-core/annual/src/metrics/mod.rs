@@ -9,6 +9,7 @@ mod point;
 pub(crate) use counts::Counts;
 pub(crate) use en17037::Half;
 pub use en17037::{En17037, Level, Method};
+pub(crate) use errors::jackknife;
 pub(crate) use grid::Variant;
 pub use grid::{Grid, GridErrors};
 pub use point::Point;
