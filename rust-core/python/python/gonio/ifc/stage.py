@@ -1,0 +1,128 @@
+"""An IFC model as a USD stage."""
+
+from __future__ import annotations
+
+import os
+from collections import Counter
+from pathlib import Path
+from typing import Any
+
+from . import fixtures, prims, rooms, shapes, site
+from .extra import require
+from .lights import Lights
+from .notes import Notes
+from .opened import open_model
+from .photometry import Photometry
+from .shapes import Placed
+from .surfaces import Surfaces
+from .tree import ROOT, Tree
+from .writing import SHARED_FROM, Writer
+
+# What has a body and is none of a building's: openings, what is only reckoned with, steel within concrete.
+LEFT_OUT = ("IfcFeatureElementSubtraction", "IfcVirtualElement", "IfcReinforcingElement")
+
+
+def write_stage(source: str | os.PathLike[str], target: str | os.PathLike[str]) -> list[str]:
+    """Writes the building model `source` (.ifc) as the USD stage `target` (.usda, .usdc), in metres, z up and y north.
+
+    Photometric tables of luminaires become .ies files beside it. Gives what was left out or taken by default, with names and GlobalIds.
+    Raises ValueError for files that are no IFC models, have no geometry, or where the packages of the extra `ifc` are absent.
+    """
+    return _Build(Path(source), Path(target)).run()
+
+
+class _Build:
+    """The way from a model to a stage."""
+
+    def __init__(self, source: Path, target: Path) -> None:
+        self.source = source
+        self.notes = Notes()
+        self.model = open_model(source)
+        unit = require("ifcopenshell.util.unit").calculate_unit_scale
+        self.metre, self.radian = float(unit(self.model)), float(unit(self.model, "PLANEANGLEUNIT"))
+        self.tree = Tree()
+        self.writer = Writer(target, self.tree.names)
+        photometry = Photometry(source, target, self.radian, self.notes)
+        self.lights = Lights(photometry, self.metre, self.radian, self.notes)
+
+    def run(self) -> list[str]:
+        """Reads, writes, and gives the notes."""
+        bodies = self._bodies()
+        lit = [(fixture, lamps) for fixture in fixtures.read(self.model, self.metre) if (lamps := self.lights.lamps(fixture))]
+        grids = [found for space in shapes.read(self.model, _with_body(self.model, "IfcSpace")) if (found := rooms.grid(space, self.notes))]
+        for element in [body.element for body in bodies] + [fixture.element for fixture, _ in lit] + [grid.space for grid in grids]:
+            self.tree.path(element)
+        self._place(bodies)
+        self._write_bodies(bodies, {fixture.element.id() for fixture, _ in lit})
+        shadowless = {body.element.id() for body in bodies}
+        for fixture, lamps in lit:
+            path = self.tree.path(fixture.element)
+            for lamp in lamps:
+                prims.lamp(self.writer, path, lamp, fixture.element.id() in shadowless)
+        for grid in grids:
+            prims.grid(self.writer, self.tree.path(grid.space), grid)
+        for path, entity in self.tree.entities.items():
+            self.writer.about(path, entity)
+        self.writer.save()
+        return self.notes.lines()
+
+    def _bodies(self) -> list[Placed]:
+        """Surfaces of all elements and of the ground; those without are told."""
+        kinds = ("IfcElement", "IfcSite", "IfcBuilding")
+        wanted = [element for kind in kinds for element in _with_body(self.model, kind) if not any(element.is_a(name) for name in LEFT_OUT)]
+        found = list(shapes.read(self.model, wanted))
+        if not found:
+            count = len(self.model.by_type("IfcProduct"))
+            raise ValueError(f"{self.source}: the model has no geometry that can be seen ({count} products); export the bodies of its elements")
+        seen = {body.element.id() for body in found}
+        for element in wanted:
+            if element.id() not in seen and _is_solid(element):
+                self.notes.of("IfcOpenShell makes no surface of these, which are left out", element)
+        for element in self.model.by_type("IfcReinforcingElement"):
+            self.notes.of("reinforcement is left out", element)
+        return found
+
+    def _place(self, bodies: list[Placed]) -> None:
+        """Turns the model to north, brings it to the origin, and says where it is."""
+        found = site.read(self.model, self.metre, self.notes)
+        project = self.model.by_type("IfcProject")[0]
+        root = self.writer.root
+        self.writer.about(ROOT, project)
+        if found.turn:
+            root.AddRotateZOp().Set(found.turn)
+            self.notes.say(f"the model is turned by {found.turn:g}° about z, so that true north is +y")
+        shift = site.shift([body.points() for body in bodies])
+        if shift.any():
+            x, y, z = (-shift).tolist()
+            root.AddTranslateOp().Set(self.writer.gf.Vec3d(x, y, z))
+            self.notes.say(f"the model lies far from its origin and is moved by {x:g}, {y:g}, {z:g} m, before any turn")
+        for name in ("latitude", "longitude", "elevation"):
+            if (value := getattr(found, name)) is not None:
+                self.writer.custom(root.GetPrim(), name, "Double", value)
+
+    def _write_bodies(self, bodies: list[Placed], lit: set[int]) -> None:
+        """A mesh for each element, an instance where a large shape stands several times."""
+        surfaces = Surfaces(self.model, self.notes)
+        parts = [surfaces.parts(body) for body in bodies]
+        counts = Counter(map(id, parts))
+        for body, own in zip(bodies, parts):
+            if not own:
+                continue
+            path = self.tree.path(body.element)
+            if path in self.tree.branches or body.element.id() in lit:
+                path = self.tree.names.below(path, "Body")
+            if counts[id(own)] > 1 and len(body.shape.faces) >= SHARED_FROM:
+                self.writer.shared(path, id(own), body.shape.points, own)
+            else:
+                self.writer.mesh(path, body.shape.points, own)
+            self.writer.place(path, body.matrix)
+
+
+def _with_body(model: Any, kind: str) -> list[Any]:
+    return [element for element in model.by_type(kind) if element.Representation]
+
+
+def _is_solid(element: Any) -> bool:
+    """Whether an element has more than axes and plans."""
+    kinds = {representation.RepresentationType for representation in element.Representation.Representations}
+    return bool(kinds - {"Curve2D", "Curve", "Curve3D", "GeometricCurveSet", "GeometricSet", "Annotation2D", "FootPrint", "BoundingBox", "LightSource", None})

@@ -1,0 +1,143 @@
+"""Which look each triangle has: by its style, the part of the element that it is, or what the element is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from . import looks, panes
+from .extra import require
+from .looks import GLASS, Look
+from .notes import Notes
+from .shapes import Placed, Shape
+
+Parts = list[tuple[Look, Any]]
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What of an element its looks depend on, beside its shape."""
+
+    plain: Look
+    glass: Look
+    # The transmittance that its properties state goes before that of styles.
+    is_stated: bool
+    is_window: bool
+    is_slab: bool
+    is_glass: bool
+
+
+# Slabs and roofs without a style: faces within 45° of level are floor and ceiling.
+LEVEL = 0.7071
+GLAZING = ("Pset_DoorWindowGlazingType", "VisibleLightTransmittance")
+SLABS = ("IfcSlab", "IfcRoof")
+
+
+class Surfaces:
+    """Looks of a model's elements, each style read once."""
+
+    def __init__(self, model: Any, notes: Notes) -> None:
+        self.model = model
+        self.notes = notes
+        self._styles: dict[int, Look | None] = {0: None}
+        self._parts: dict[tuple[str, Kind], Parts] = {}
+        self._glazing = _glazing_items(model)
+
+    def parts(self, placed: Placed) -> Parts:
+        """Faces by their looks."""
+        element, shape = placed.element, placed.shape
+        key = (shape.key, _kind(element))
+        if key not in self._parts:
+            self._parts[key] = self._of_shape(element, shape, key[1])
+        if any(look.is_default for look, _ in self._parts[key]):
+            self._tell_defaults(element, self._parts[key])
+        return self._parts[key]
+
+    def _tell_defaults(self, element: Any, parts: Parts) -> None:
+        names = sorted({look.name.removeprefix("Default ") for look, _ in parts if look.is_default})
+        self.notes.of(f"no style says how light or clear they are; by what they are: {', '.join(names)}", element)
+
+    def _style(self, number: int) -> Look | None:
+        """The look of a style, or of a material by its name."""
+        if number not in self._styles:
+            entity = self.model.by_id(number)
+            found = looks.of_style(entity, self.notes) if entity.is_a("IfcSurfaceStyle") else None
+            self._styles[number] = GLASS if found is None and looks.is_glass(getattr(entity, "Name", None)) else found
+        return self._styles[number]
+
+    def _of_shape(self, element: Any, shape: Shape, kind: Kind) -> Parts:
+        table: dict[Look | None, int] = {}
+        numbers = np.zeros(len(shape.faces), "i4")
+        for style in np.unique(shape.styles):
+            numbers[shape.styles == style] = table.setdefault(self._style(int(style)), len(table))
+        clear = np.array([look is not None and look.is_pane for look in table])[numbers]
+        glazing = np.isin(shape.items, list(self._glazing)) & ~clear
+        if kind.is_window and not glazing.any() and not clear.any():
+            glazing = _by_form(shape)
+        parts: Parts = [(kind.glass, shape.faces[glazing])]
+        for look, number in table.items():
+            faces = shape.faces[(numbers == number) & ~glazing]
+            if look is None:
+                parts += _without_style(kind, shape.points, faces)
+            else:
+                parts.append((kind.glass if look.is_pane and kind.is_stated else look, faces))
+        return self._with_panes(element, [part for part in parts if len(part[1])], shape.points)
+
+    def _with_panes(self, element: Any, parts: Parts, points: Any) -> Parts:
+        """Thin boxes of what light goes through become sheets; what is no sheet has half of the pane on each side."""
+        result: Parts = []
+        for look, faces in parts:
+            if not look.is_pane:
+                result.append((look, faces))
+                continue
+            sheets, thick = panes.sheets(faces, points)
+            if len(sheets):
+                result.append((look, sheets))
+            if len(thick):
+                self.notes.of("bodies of glass that are no flat panes: each of their two faces has the root of the transmittance", element)
+                red, green, blue = (x**0.5 for x in look.transmittance)
+                result.append((replace(look, name=f"{look.name} face", transmittance=(red, green, blue)), thick))
+        return result
+
+
+def _kind(element: Any) -> Kind:
+    util = require("ifcopenshell.util.element")
+    materials = util.get_materials(element)
+    stated = util.get_pset(element, *GLAZING)
+    is_stated = isinstance(stated, float) and 0.0 < stated <= 1.0
+    glass = Look(f"Glass {stated:g}", transmittance=(stated,) * 3) if is_stated else GLASS
+    is_slab = any(element.is_a(name) for name in SLABS)
+    is_glass = len(materials) == 1 and looks.is_glass(materials[0].Name)
+    return Kind(looks.of_class(element), glass, is_stated, element.is_a("IfcWindow"), is_slab, is_glass)
+
+
+def _by_form(shape: Shape) -> Any:
+    """Faces of a window that are flat full rectangles: its glass, or the whole window."""
+    glazing = np.zeros(len(shape.faces), bool)
+    for members in panes.components(shape.faces, shape.points):
+        glazing[members] = panes.is_pane(shape.faces[members], shape.points)
+    return glazing
+
+
+def _without_style(kind: Kind, points: Any, faces: Any) -> Parts:
+    """Faces by what the element is; those of slabs by where they look."""
+    if kind.is_glass or not kind.is_slab:
+        return [(kind.glass if kind.is_glass else kind.plain, faces)]
+    a, b, c = (points[faces[:, i]] for i in range(3))
+    normals = np.cross(b - a, c - a)
+    slopes = normals[:, 2] / np.maximum(np.linalg.norm(normals, axis=1), 1e-30)
+    sides = [(looks.default("floor", looks.FLOOR), slopes > LEVEL), (looks.default("ceiling", looks.CEILING), slopes < -LEVEL)]
+    return [*((look, faces[mask]) for look, mask in sides), (kind.plain, faces[np.abs(slopes) <= LEVEL])]
+
+
+def _glazing_items(model: Any) -> set[int]:
+    """Numbers of items that shape aspects call glazing."""
+    return {
+        item.id()
+        for aspect in model.by_type("IfcShapeAspect")
+        if looks.is_glass(aspect.Name)
+        for representation in aspect.ShapeRepresentations
+        for item in representation.Items
+    }
