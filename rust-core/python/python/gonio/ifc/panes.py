@@ -14,15 +14,17 @@ FLAT = 0.8
 FILLED = 0.9
 
 
-def components(faces: Any, points: Any) -> list[Any]:
-    """Numbers of the faces that hang together, by corners at the same place."""
+def components(faces: Any, points: Any, items: Any) -> list[Any]:
+    """Numbers of the faces that hang together: of one item, by corners at the same place."""
     _, places = np.unique(np.round(points, 6), axis=0, return_inverse=True)
-    corners = places.reshape(-1)[faces]
-    label = np.arange(len(points))
+    _, bodies = np.unique(items, return_inverse=True)
+    corners = places.reshape(-1)[faces] + len(points) * bodies.reshape(-1, 1)
+    _, corners = np.unique(corners, return_inverse=True)
+    corners = corners.reshape(-1, 3)
+    label = np.arange(corners.max(initial=0) + 1)
     while True:
-        least = label[corners].min(axis=1)
         lower = label.copy()
-        np.minimum.at(lower, corners, least[:, None])
+        np.minimum.at(lower, corners, label[corners].min(axis=1)[:, None])
         lower = lower[lower]
         if (lower == label).all():
             break
@@ -31,11 +33,11 @@ def components(faces: Any, points: Any) -> list[Any]:
     return [np.flatnonzero(of_faces == value) for value in np.unique(of_faces)]
 
 
-def sheets(faces: Any, points: Any) -> tuple[Any, Any]:
+def sheets(faces: Any, points: Any, items: Any) -> tuple[Any, Any]:
     """One side of each thin box and all open sheets; and, apart, what is neither."""
     kept: list[Any] = []
     thick: list[Any] = []
-    for members in components(faces, points):
+    for members in components(faces, points, items):
         sheet = _sheet(faces[members], points)
         (thick if sheet is None else kept).append(faces[members] if sheet is None else sheet)
     nothing = np.zeros((0, 3), faces.dtype)

@@ -20,6 +20,10 @@ from .writing import SHARED_FROM, Writer
 
 # What has a body and is none of a building's: openings, what is only reckoned with, steel within concrete.
 LEFT_OUT = ("IfcFeatureElementSubtraction", "IfcVirtualElement", "IfcReinforcingElement")
+# Kinds of representations that have no surface.
+FLAT = {None, "Curve", "Curve2D", "Curve3D", "GeometricCurveSet", "GeometricSet", "Annotation2D", "FootPrint", "BoundingBox", "LightSource"}
+# Names of stages.
+SUFFIXES = (".usda", ".usdc", ".usd")
 
 
 def write_stage(source: str | os.PathLike[str], target: str | os.PathLike[str]) -> list[str]:
@@ -35,6 +39,8 @@ class _Build:
     """The way from a model to a stage."""
 
     def __init__(self, source: Path, target: Path) -> None:
+        if target.suffix not in SUFFIXES:
+            raise ValueError(f"{target}: expected a stage whose name ends in {', '.join(SUFFIXES)}")
         self.source = source
         self.notes = Notes()
         self.model = open_model(source)
@@ -123,6 +129,5 @@ def _with_body(model: Any, kind: str) -> list[Any]:
 
 
 def _is_solid(element: Any) -> bool:
-    """Whether an element has more than axes and plans."""
-    kinds = {representation.RepresentationType for representation in element.Representation.Representations}
-    return bool(kinds - {"Curve2D", "Curve", "Curve3D", "GeometricCurveSet", "GeometricSet", "Annotation2D", "FootPrint", "BoundingBox", "LightSource", None})
+    """Whether an element has more than axes, plans and light sources."""
+    return any(representation.RepresentationType not in FLAT for representation in element.Representation.Representations)

@@ -76,30 +76,27 @@ class Surfaces:
         glazing = np.isin(shape.items, list(self._glazing)) & ~clear
         if kind.is_window and not glazing.any() and not clear.any():
             glazing = _by_form(shape)
-        parts: Parts = [(kind.glass, shape.faces[glazing])]
+        masks = [(kind.glass, glazing)]
         for look, number in table.items():
-            faces = shape.faces[(numbers == number) & ~glazing]
+            mask = (numbers == number) & ~glazing
             if look is None:
-                parts += _without_style(kind, shape.points, faces)
+                masks += [(own, mask & of_own) for own, of_own in _without_style(kind, shape)]
             else:
-                parts.append((kind.glass if look.is_pane and kind.is_stated else look, faces))
-        return self._with_panes(element, [part for part in parts if len(part[1])], shape.points)
+                masks.append((kind.glass if look.is_pane and kind.is_stated else look, mask))
+        return [part for look, mask in masks if mask.any() for part in self._part(element, shape, look, mask)]
 
-    def _with_panes(self, element: Any, parts: Parts, points: Any) -> Parts:
-        """Thin boxes of what light goes through become sheets; what is no sheet has half of the pane on each side."""
-        result: Parts = []
-        for look, faces in parts:
-            if not look.is_pane:
-                result.append((look, faces))
-                continue
-            sheets, thick = panes.sheets(faces, points)
-            if len(sheets):
-                result.append((look, sheets))
-            if len(thick):
-                self.notes.of("bodies of glass that are no flat panes: each of their two faces has the root of the transmittance", element)
-                red, green, blue = (x**0.5 for x in look.transmittance)
-                result.append((replace(look, name=f"{look.name} face", transmittance=(red, green, blue)), thick))
-        return result
+    def _part(self, element: Any, shape: Shape, look: Look, mask: Any) -> Parts:
+        """Faces with a look. Thin boxes that light goes through become sheets; what is no sheet has half of the pane on each side."""
+        faces = shape.faces[mask]
+        if not look.is_pane:
+            return [(look, faces)]
+        sheets, thick = panes.sheets(faces, shape.points, shape.items[mask])
+        parts = [(look, sheets)] if len(sheets) else []
+        if len(thick):
+            self.notes.of("bodies of glass that are no flat panes: each of their two faces has the root of the transmittance", element)
+            red, green, blue = (x**0.5 for x in look.transmittance)
+            parts.append((replace(look, name=f"{look.name} face", transmittance=(red, green, blue)), thick))
+        return parts
 
 
 def _kind(element: Any) -> Kind:
@@ -109,27 +106,29 @@ def _kind(element: Any) -> Kind:
     is_stated = isinstance(stated, float) and 0.0 < stated <= 1.0
     glass = Look(f"Glass {stated:g}", transmittance=(stated,) * 3) if is_stated else GLASS
     is_slab = any(element.is_a(name) for name in SLABS)
-    is_glass = len(materials) == 1 and looks.is_glass(materials[0].Name)
+    # The panels of curtain walls are named by what they are.
+    names = [element.Name if element.is_a("IfcPlate") else None, materials[0].Name if len(materials) == 1 else None]
+    is_glass = any(looks.is_glass(name) for name in names)
     return Kind(looks.of_class(element), glass, is_stated, element.is_a("IfcWindow"), is_slab, is_glass)
 
 
 def _by_form(shape: Shape) -> Any:
     """Faces of a window that are flat full rectangles: its glass, or the whole window."""
     glazing = np.zeros(len(shape.faces), bool)
-    for members in panes.components(shape.faces, shape.points):
+    for members in panes.components(shape.faces, shape.points, shape.items):
         glazing[members] = panes.is_pane(shape.faces[members], shape.points)
     return glazing
 
 
-def _without_style(kind: Kind, points: Any, faces: Any) -> Parts:
-    """Faces by what the element is; those of slabs by where they look."""
+def _without_style(kind: Kind, shape: Shape) -> list[tuple[Look, Any]]:
+    """Which faces have which look by what the element is; those of slabs by where they look."""
     if kind.is_glass or not kind.is_slab:
-        return [(kind.glass if kind.is_glass else kind.plain, faces)]
-    a, b, c = (points[faces[:, i]] for i in range(3))
+        return [(kind.glass if kind.is_glass else kind.plain, np.ones(len(shape.faces), bool))]
+    a, b, c = (shape.points[shape.faces[:, i]] for i in range(3))
     normals = np.cross(b - a, c - a)
     slopes = normals[:, 2] / np.maximum(np.linalg.norm(normals, axis=1), 1e-30)
     sides = [(looks.default("floor", looks.FLOOR), slopes > LEVEL), (looks.default("ceiling", looks.CEILING), slopes < -LEVEL)]
-    return [*((look, faces[mask]) for look, mask in sides), (kind.plain, faces[np.abs(slopes) <= LEVEL])]
+    return [*sides, (kind.plain, np.abs(slopes) <= LEVEL)]
 
 
 def _glazing_items(model: Any) -> set[int]:

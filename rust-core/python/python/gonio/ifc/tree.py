@@ -52,7 +52,7 @@ class Tree:
             return ROOT
         if entity.id() not in self.paths:
             above = self.path(_around(entity), depth + 1)
-            path = self.names.below(above, identifier(title(entity)) or entity.is_a()[3:])
+            path = self.names.below(above, _wish(entity))
             self.paths[entity.id()] = path
             self.entities[path] = entity
             self.branches.add(above)
@@ -71,9 +71,23 @@ def _around(entity: Any) -> Any:
 
 def title(entity: Any) -> str:
     """What people call it; of a room its number and its name."""
+    name, long_name = _names(entity)
+    if entity.is_a("IfcSpace"):
+        return " ".join(word for word in (name, long_name) if word)
+    return name or long_name
+
+
+def _wish(entity: Any) -> str:
+    """The name of an element's prim; a room's begins with what the room is, since its number cannot come first."""
+    name, long_name = _names(entity)
+    wish = f"{long_name} {name}" if entity.is_a("IfcSpace") else name or long_name
+    return identifier(wish) or str(entity.is_a()).removeprefix("Ifc")
+
+
+def _names(entity: Any) -> tuple[str, str]:
+    """Number and name of a room whose name has its long name in it; else name and long name."""
     name, long_name = entity.Name or "", getattr(entity, "LongName", None) or ""
-    parts = [name, long_name] if entity.is_a("IfcSpace") and long_name not in name else [name or long_name]
-    return " ".join(part for part in parts if part)
+    return (name.replace(long_name, "").strip(" -_:.,/"), long_name) if entity.is_a("IfcSpace") and long_name else (name, long_name)
 
 
 def parent(entity: Any) -> Any:

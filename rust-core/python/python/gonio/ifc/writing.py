@@ -37,10 +37,10 @@ class Writer:
         """Writes the file, or raises ValueError."""
         try:
             done = self.stage.GetRootLayer().Export(str(self.path))
-        except Exception as error:
-            raise ValueError(f"{self.path} cannot be written: {error}") from error
+        except Exception as error:  # Of pxr.Tf, with lines of its sources.
+            raise ValueError(f"{self.path} cannot be written") from error
         if not done:
-            raise ValueError(f"{self.path} cannot be written; its name ends in .usda, .usdc or .usd")
+            raise ValueError(f"{self.path} cannot be written")
 
     def about(self, path: str, entity: Any) -> Any:
         """The prim of an element with its name, class and GlobalId; an Xform where there is none yet."""
