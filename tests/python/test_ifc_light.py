@@ -9,7 +9,7 @@ gonio = pytest.importorskip("gonio")
 pytest.importorskip("pxr")
 pytest.importorskip("ifcopenshell", reason="IFC models need ifcopenshell")
 
-import gonio.ifc  # noqa: E402
+from gonio.ifc.stage import build  # noqa: E402
 from ifc_models import Building, moved  # noqa: E402
 
 # Angles of tables in degrees, and Lambert's law by them.
@@ -30,7 +30,7 @@ UP = (0, 0, 1)
 def written(building, folder):
     """The scene of a building, and the notes."""
     building.save(folder / "model.ifc")
-    notes = gonio.ifc.write_stage(folder / "model.ifc", folder / "model.usda")
+    notes = build(folder / "model.ifc", folder / "model.usda")
     return gonio.load_usd(folder / "model.usda", camera_light=False), "\n".join(notes)
 
 

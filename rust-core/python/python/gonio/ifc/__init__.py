@@ -3,6 +3,6 @@
 `write_stage` reads IFC2X3, IFC4 and IFC4X3 files by IfcOpenShell. `docs/models.md` says what becomes of what.
 """
 
-from .stage import write_stage
+from .apart import write_stage
 
 __all__ = ["write_stage"]

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from .extra import require
+from .notes import Notes
 
 # Occurrences of IFC2X3 are flow terminals that a type makes lamps.
 FIXTURES = ("IfcLightFixture", "IfcLamp")
@@ -51,17 +52,26 @@ class Fixture:
         return [value for value in self.properties.values() if isinstance(value, str) and value.lower().endswith(FILES)]
 
 
-def read(model: Any, metre: float) -> Iterator[Fixture]:
+def read(model: Any, metre: float, notes: Notes) -> list[Fixture]:
     """All fixtures, and whatever else has light sources in its representation."""
     any_source = bool(model.by_type("IfcLightSource"))
-    util = require("ifcopenshell.util.element")
+    found = []
     for element in model.by_type("IfcElement"):
-        kind = util.get_type(element)
-        is_fixture = any(element.is_a(name) for name in FIXTURES) or (kind is not None and any(kind.is_a(name) for name in TYPES))
-        origin = _metres(_placement(element), metre)
-        found = [(source, origin @ _metres(matrix, metre)) for source, matrix in _sources(element, kind)] if any_source else []
-        if is_fixture or found:
-            yield Fixture(element, found, origin, _properties(element))
+        with notes.sound(element):
+            found += _fixture(element, metre, any_source)
+    return found
+
+
+def _fixture(element: Any, metre: float, any_source: bool) -> list[Fixture]:
+    """The element as a fixture, if it is one."""
+    kind = require("ifcopenshell.util.element").get_type(element)
+    is_fixture = any(element.is_a(name) for name in FIXTURES) or (kind is not None and any(kind.is_a(name) for name in TYPES))
+    pairs = _sources(element, kind) if any_source else []
+    if not is_fixture and not pairs:
+        return []
+    origin = _metres(_placement(element), metre)
+    sources = [(source, origin @ _metres(matrix, metre)) for source, matrix in pairs]
+    return [Fixture(element, sources, origin, _properties(element))]
 
 
 def _properties(element: Any) -> dict[str, Any]:

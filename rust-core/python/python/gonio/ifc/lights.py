@@ -41,9 +41,11 @@ class Lights:
 
     def lamps(self, fixture: Fixture) -> list[Lamp]:
         """The fixture's lamps; what gives no light is told."""
-        if fixture.sources:
-            found = [lamp for source, matrix in fixture.sources if (lamp := self._lamp(fixture, source, matrix))]
-        else:
+        found: list[Lamp] = []
+        for source, matrix in fixture.sources:
+            with self.notes.sound(fixture.element):
+                found += filter(None, [self._lamp(fixture, source, matrix)])
+        if not fixture.sources:
             found = self._by_properties(fixture)
         if found and fixture.maintenance < 1.0:
             self.notes.of(f"light is multiplied by the maintenance factor {fixture.maintenance:g} of their properties", fixture.element)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+from collections.abc import Iterator
 from typing import Any
 
 # As many are named of a kind.
@@ -11,7 +13,8 @@ NAMED = 3
 def label(entity: Any) -> str:
     """What messages call an element: its class, name and GlobalId."""
     name = getattr(entity, "Name", None)
-    return f"{entity.is_a()} {name!r} ({entity.GlobalId})" if name else f"{entity.is_a()} ({entity.GlobalId})"
+    words = f"{entity.is_a()} {name!r}" if name else str(entity.is_a())
+    return f"{words} ({getattr(entity, 'GlobalId', None) or f'#{entity.id()}'})"
 
 
 class Notes:
@@ -27,6 +30,14 @@ class Notes:
     def of(self, what: str, entity: Any) -> None:
         """A message about an element; those that say the same become one."""
         self._of.setdefault(what, {})[label(entity)] = None
+
+    @contextlib.contextmanager
+    def sound(self, entity: Any) -> Iterator[None]:
+        """What goes on within is left out, and told, where the element's data is not what IFC's schema says."""
+        try:
+            yield
+        except Exception as error:  # Whatever code meets in data of the wrong type.
+            self.of(f"malformed, and left out in part ({type(error).__name__}: {error})", entity)
 
     def lines(self) -> list[str]:
         """The messages."""

@@ -33,6 +33,12 @@ class Grid:
 
 def grid(placed: Placed, notes: Notes) -> Grid | None:
     """The grid of a space; None, told, where it has no level floor or is too narrow."""
+    with notes.sound(placed.element):
+        return _grid(placed, notes)
+    return None
+
+
+def _grid(placed: Placed, notes: Notes) -> Grid | None:
     floor = _floor(placed)
     if floor is None:
         notes.of("rooms without a level floor have no grid", placed.element)

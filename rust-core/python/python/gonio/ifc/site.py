@@ -27,13 +27,20 @@ class Site:
 
 def read(model: Any, metre: float, notes: Notes) -> Site:
     """The site; `metre` is the length of the project's unit."""
-    turn = _turn(model)
+    turn = None
+    for context in model.by_type("IfcGeometricRepresentationContext", include_subtypes=False):
+        with notes.sound(context):
+            turn = _turn(context) if turn is None else turn
     if turn is None:
         notes.say("the model does not say where true north is; +y is taken")
-    _tell_map(model, notes)
+    for conversion in [] if model.schema == "IFC2X3" else model.by_type("IfcMapConversion"):
+        with notes.sound(conversion):
+            _tell_map(conversion, notes)
     for site in model.by_type("IfcSite"):
-        latitude, longitude = degrees(site.RefLatitude), degrees(site.RefLongitude)
-        if latitude is not None and longitude is not None:
+        with notes.sound(site):
+            latitude, longitude = degrees(site.RefLatitude), degrees(site.RefLongitude)
+            if latitude is None or longitude is None:
+                continue
             notes.say(f"the site lies at {latitude:.5f}° north, {longitude:.5f}° east: --sun {latitude:.5f},{longitude:.5f},TIME")
             elevation = None if site.RefElevation is None else site.RefElevation * metre
             return Site(turn or 0.0, latitude, longitude, elevation)
@@ -57,20 +64,16 @@ def shift(points: list[Any]) -> Any:
     return np.round([0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]), low[2]])
 
 
-def _turn(model: Any) -> float | None:
+def _turn(context: Any) -> float | None:
     """Degrees counter-clockwise from the project's true north to +y."""
-    for context in model.by_type("IfcGeometricRepresentationContext", include_subtypes=False):
-        if context.ContextType == "Model" and context.TrueNorth:
-            x, y, *_ = context.TrueNorth.DirectionRatios
-            if x or y:
-                return round(math.degrees(math.atan2(x, y)), 9)
+    if context.ContextType == "Model" and context.TrueNorth:
+        x, y, *_ = context.TrueNorth.DirectionRatios
+        if x or y:
+            return round(math.degrees(math.atan2(x, y)), 9)
     return None
 
 
-def _tell_map(model: Any, notes: Notes) -> None:
-    if model.schema == "IFC2X3":
-        return
-    for conversion in model.by_type("IfcMapConversion"):
-        east, north, height = conversion.Eastings, conversion.Northings, conversion.OrthogonalHeight
-        name = getattr(conversion.TargetCRS, "Name", None) or "a map"
-        notes.say(f"the project's origin is at {east:g} east, {north:g} north, {height:g} high in {name}; the stage keeps the project's coordinates")
+def _tell_map(conversion: Any, notes: Notes) -> None:
+    east, north, height = conversion.Eastings, conversion.Northings, conversion.OrthogonalHeight
+    name = getattr(conversion.TargetCRS, "Name", None) or "a map"
+    notes.say(f"the project's origin is at {east:g} east, {north:g} north, {height:g} high in {name}; the stage keeps the project's coordinates")

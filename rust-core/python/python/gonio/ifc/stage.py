@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections import Counter
 from pathlib import Path
 from typing import Any
@@ -26,21 +25,17 @@ FLAT = {None, "Curve", "Curve2D", "Curve3D", "GeometricCurveSet", "GeometricSet"
 SUFFIXES = (".usda", ".usdc", ".usd")
 
 
-def write_stage(source: str | os.PathLike[str], target: str | os.PathLike[str]) -> list[str]:
-    """Writes the building model `source` (.ifc) as the USD stage `target` (.usda, .usdc), in metres, z up and y north.
-
-    Photometric tables of luminaires become .ies files beside it. Gives what was left out or taken by default, with names and GlobalIds.
-    Raises ValueError for files that are no IFC models, have no geometry, or where the packages of the extra `ifc` are absent.
-    """
-    return _Build(Path(source), Path(target)).run()
+def build(source: Path, target: Path) -> list[str]:
+    """Writes the stage of a model in this process, and gives the notes; ValueError for what is no model."""
+    if target.suffix not in SUFFIXES:
+        raise ValueError(f"{target}: expected a stage whose name ends in {', '.join(SUFFIXES)}")
+    return _Build(source, target).run()
 
 
 class _Build:
     """The way from a model to a stage."""
 
     def __init__(self, source: Path, target: Path) -> None:
-        if target.suffix not in SUFFIXES:
-            raise ValueError(f"{target}: expected a stage whose name ends in {', '.join(SUFFIXES)}")
         self.source = source
         self.notes = Notes()
         self.model = open_model(source)
@@ -54,17 +49,17 @@ class _Build:
     def run(self) -> list[str]:
         """Reads, writes, and gives the notes."""
         bodies = self._bodies()
-        lit = [(fixture, lamps) for fixture in fixtures.read(self.model, self.metre) if (lamps := self.lights.lamps(fixture))]
-        grids = [found for space in shapes.read(self.model, _with_body(self.model, "IfcSpace")) if (found := rooms.grid(space, self.notes))]
+        lit = [(fixture, lamps) for fixture in fixtures.read(self.model, self.metre, self.notes) if (lamps := self.lights.lamps(fixture))]
+        spaces = shapes.read(self.model, _with_body(self.model, "IfcSpace"))
+        grids = [found for space in spaces if (found := rooms.grid(space, self.notes))]
         for element in [body.element for body in bodies] + [fixture.element for fixture, _ in lit] + [grid.space for grid in grids]:
             self.tree.path(element)
         self._place(bodies)
         self._write_bodies(bodies, {fixture.element.id() for fixture, _ in lit})
-        shadowless = {body.element.id() for body in bodies}
+        with_body = {body.element.id() for body in bodies}
         for fixture, lamps in lit:
-            path = self.tree.path(fixture.element)
             for lamp in lamps:
-                prims.lamp(self.writer, path, lamp, fixture.element.id() in shadowless)
+                prims.lamp(self.writer, self.tree.path(fixture.element), lamp, fixture.element.id() in with_body)
         for grid in grids:
             prims.grid(self.writer, self.tree.path(grid.space), grid)
         for path, entity in self.tree.entities.items():
@@ -82,8 +77,9 @@ class _Build:
             raise ValueError(f"{self.source}: the model has no geometry that can be seen ({count} products); export the bodies of its elements")
         seen = {body.element.id() for body in found}
         for element in wanted:
-            if element.id() not in seen and _is_solid(element):
-                self.notes.of("IfcOpenShell makes no surface of these, which are left out", element)
+            with self.notes.sound(element):
+                if element.id() not in seen and _is_solid(element):
+                    self.notes.of("IfcOpenShell makes no surface of these, which are left out", element)
         for element in self.model.by_type("IfcReinforcingElement"):
             self.notes.of("reinforcement is left out", element)
         return found

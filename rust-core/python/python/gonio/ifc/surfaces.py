@@ -48,9 +48,12 @@ class Surfaces:
     def parts(self, placed: Placed) -> Parts:
         """Faces by their looks."""
         element, shape = placed.element, placed.shape
-        key = (shape.key, _kind(element))
+        kind = Kind(looks.default("element", looks.WALL), GLASS, False, False, False, False)
+        with self.notes.sound(element):
+            kind = _kind(element)
+        key = (shape.key, kind)
         if key not in self._parts:
-            self._parts[key] = self._of_shape(element, shape, key[1])
+            self._parts[key] = self._of_shape(element, shape, kind)
         if any(look.is_default for look, _ in self._parts[key]):
             self._tell_defaults(element, self._parts[key])
         return self._parts[key]
@@ -62,8 +65,9 @@ class Surfaces:
     def _style(self, number: int) -> Look | None:
         """The look of a style, or of a material by its name."""
         if number not in self._styles:
-            entity = self.model.by_id(number)
-            found = looks.of_style(entity, self.notes) if entity.is_a("IfcSurfaceStyle") else None
+            entity, found = self.model.by_id(number), None
+            with self.notes.sound(entity):
+                found = looks.of_style(entity, self.notes) if entity.is_a("IfcSurfaceStyle") else None
             self._styles[number] = GLASS if found is None and looks.is_glass(getattr(entity, "Name", None)) else found
         return self._styles[number]
 

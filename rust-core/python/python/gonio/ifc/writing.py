@@ -50,7 +50,7 @@ class Writer:
         if name := title(entity):
             prim.SetDisplayName(name)
         self.custom(prim, "class", "Token", entity.is_a())
-        self.custom(prim, "GlobalId", "String", entity.GlobalId)
+        self.custom(prim, "GlobalId", "String", entity.GlobalId or "")
         return prim
 
     def custom(self, prim: Any, name: str, kind: str, value: Any) -> None:
