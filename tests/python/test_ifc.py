@@ -103,6 +103,7 @@ def test_styles(tmp_path):
     paints = {
         "Grey": building.style("Grey", (0.5, 0.5, 0.5)),
         "White": building.style("White", (1, 1, 1)),
+        "Bytes": building.style("Bytes", (204, 204, 204)),
         "Steel": building.style("Steel", (0.8, 0.8, 0.8), method="METAL"),
         "Measured": building.surface("Measured", build("IfcSurfaceStyleLighting", *shares)),
         "Half": building.surface("Half", build("IfcSurfaceStyleRendering", building.colour((1, 1, 1)), 0.0, build("IfcNormalisedRatioMeasure", 0.5))),
@@ -113,7 +114,7 @@ def test_styles(tmp_path):
     found = {name: looks(stage, f"{GROUND}/{name}")[0][0] for name in paints}
     reflected = {name: inputs["base_color"][0] for name, inputs in found.items()}
     # Colours are those of screens: 0.5 is 21 % of light, 0.8 is 60 %. Shares of light are taken as they are.
-    assert reflected == pytest.approx({"Grey": 0.2140, "White": 0.9, "Steel": 0.6038, "Measured": 0.3, "Half": 0.5}, abs=1e-4)
+    assert reflected == pytest.approx({"Grey": 0.2140, "White": 0.9, "Bytes": 0.6038, "Steel": 0.6038, "Measured": 0.3, "Half": 0.5}, abs=1e-4)
     assert found["Steel"]["base_metalness"] == 1.0 and "whiter than white paint" in notes
 
 
@@ -193,9 +194,11 @@ def test_broken_models_end_in_an_error_and_the_process_goes_on(tmp_path):
     notes = gonio.ifc.write_stage(path, tmp_path / "whole.usda")
     assert any("wall 0.5" in note for note in notes) and (tmp_path / "whole.usda").exists()
     # A placement that is relative to itself, which IfcOpenShell follows until its stack ends.
-    number = next(line for line in whole.split(b"\n") if b"IFCLOCALPLACEMENT" in line).split(b"=")[0]
-    circle = [number + b"=IFCLOCALPLACEMENT(" + number + b"," + line.split(b",", 1)[1] if line.startswith(number + b"=") else line for line in whole.split(b"\n")]
-    path.write_bytes(b"\n".join(circle))
+    lines = whole.split(b"\n")
+    first = next(i for i, line in enumerate(lines) if b"IFCLOCALPLACEMENT" in line)
+    number, rest = lines[first].split(b"=IFCLOCALPLACEMENT(")
+    lines[first] = number + b"=IFCLOCALPLACEMENT(" + number + b"," + rest.split(b",", 1)[1]
+    path.write_bytes(b"\n".join(lines))
     with pytest.raises(ValueError, match="broken.ifc"):
         gonio.ifc.write_stage(path, tmp_path / "circle.usda")
     path.write_bytes(b"")

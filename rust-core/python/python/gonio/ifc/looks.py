@@ -86,8 +86,10 @@ def linear(colour: Sequence[float]) -> Colour:
 
 
 def rgb(colour: Any) -> Colour:
-    """The numbers of an IfcColourRgb."""
-    return float(colour.Red), float(colour.Green), float(colour.Blue)
+    """The numbers of an IfcColourRgb, 0 to 1; some programs count to 255."""
+    found = float(colour.Red), float(colour.Green), float(colour.Blue)
+    red, green, blue = (x / 255.0 for x in found) if max(found) > 1.0 else found
+    return red, green, blue
 
 
 def _of_lighting(name: str, lighting: Any, notes: Notes) -> Look:
