@@ -87,11 +87,18 @@ def test_surfaces_without_a_style_are_by_what_they_are(tmp_path):
     building = Building()
     wall = building.block("IfcWall", "Wall", (0, 0, 0), (4, 0.2, 3))
     building.block("IfcSlab", "Slab", (0, 0, -0.2), (4, 4, 0), PredefinedType="FLOOR")
+    hung = building.block("IfcSlab", "Hung", (0, 0, 0), (4, 4, 0.2))
+    # Upside down, 4 m further up.
+    building.place(hung, [[1, 0, 0, 0], [0, -1, 0, 4], [0, 0, -1, 4], [0, 0, 0, 1]])
     building.block("IfcCovering", "Ceiling", (0, 0, 2.9), (4, 4, 3), PredefinedType="CEILING")
     stage, notes = written(building, tmp_path)
     assert [inputs["base_color"][0] for inputs, _ in looks(stage, f"{GROUND}/Wall")] == [0.5]
     slab = {round(inputs["base_color"][0], 3): area for inputs, area in looks(stage, f"{GROUND}/Slab")}
     assert slab == pytest.approx({0.2: 16.0, 0.8: 16.0, 0.5: 3.2}, rel=1e-5)
+    triangles = corners(stage, f"{GROUND}/Hung")
+    low = triangles[..., 2].max(axis=1) < 3.81
+    floor = UsdGeom.Subset.Get(stage, f"{GROUND}/Hung/part_1").GetIndicesAttr().Get()
+    assert looks(stage, f"{GROUND}/Hung")[0][0]["base_color"][0] == pytest.approx(0.2) and not low[np.array(floor)].any()
     assert looks(stage, f"{GROUND}/Ceiling")[0][0]["base_color"][0] == pytest.approx(0.8)
     assert f"wall 0.5: IfcWall 'Wall' ({wall.GlobalId})" in notes
 

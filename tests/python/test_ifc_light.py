@@ -117,6 +117,22 @@ def test_lamps_with_a_flux_alone(tmp_path):
     assert "maintenance factor 0.8" in notes
 
 
+def test_lamps_in_fixtures(tmp_path):
+    building = Building()
+    housing = building.fixture("Housing", (0, 0, 3), body=((-0.3, -0.3, -0.1), (0.3, 0.3, 0.1)))
+    building.properties(housing, "Pset_LightFixtureTypeCommon", MaintenanceFactor=0.5)
+    even = building.table([0], [0, 90, 180], [[100, 100, 100]])
+    lamp = building.new("IfcLamp", "Lamp")
+    building.place(lamp, moved((0, 0, 3)))
+    building.show(lamp, [building.goniometric(even)], "LightSource", "Lighting")
+    building.model.create_entity("IfcRelAggregates", lamp.GlobalId[::-1], None, None, None, housing, [lamp])
+    # Panes, by which meters ask for light paths.
+    building.block("IfcWindow", "Window", (2, -1, 0), (2.01, 1, 2))
+    scene, notes = written(building, tmp_path)
+    assert lux(scene, ((0, 0, 1), UP)) == pytest.approx([12.5], rel=2e-2)
+    assert "no photometry" not in notes and "maintenance factor 0.5" in notes
+
+
 def test_what_gives_no_light_is_told(tmp_path):
     building = Building()
     dark_box(building)

@@ -10,6 +10,7 @@ import numpy as np
 
 from .extra import require
 from .notes import Notes
+from .tree import DEEPEST, parent
 
 # Occurrences of IFC2X3 are flow terminals that a type makes lamps.
 FIXTURES = ("IfcLightFixture", "IfcLamp")
@@ -42,6 +43,17 @@ class Fixture:
         """Colour temperature by properties, 0 without."""
         return self.number("ColorTemperature")
 
+    @property
+    def whole(self) -> Any:
+        """The luminaire that it is part of, or itself."""
+        found = self.element
+        for _ in range(DEEPEST):
+            above = parent(found)
+            if above is None or not any(above.is_a(name) for name in FIXTURES):
+                break
+            found = above
+        return found
+
     def number(self, name: str) -> float:
         """A property that is a number, 0 where it is none."""
         value = self.properties.get(name)
@@ -67,7 +79,9 @@ def _fixture(element: Any, metre: float, any_source: bool) -> list[Fixture]:
     kind = require("ifcopenshell.util.element").get_type(element)
     is_fixture = any(element.is_a(name) for name in FIXTURES) or (kind is not None and any(kind.is_a(name) for name in TYPES))
     pairs = _sources(element, kind) if any_source else []
-    if not is_fixture and not pairs:
+    # A fixture with lamps shines by these.
+    has_lamps = any(part.is_a("IfcLamp") for part in require("ifcopenshell.util.element").get_decomposition(element))
+    if not pairs and (has_lamps or not is_fixture):
         return []
     origin = _metres(_placement(element), metre)
     sources = [(source, origin @ _metres(matrix, metre)) for source, matrix in pairs]
@@ -75,10 +89,11 @@ def _fixture(element: Any, metre: float, any_source: bool) -> list[Fixture]:
 
 
 def _properties(element: Any) -> dict[str, Any]:
-    """Single values of all property sets, those of parts such as lamps where the fixture has none."""
+    """Single values of all property sets, of a lamp those of its fixture too."""
     util = require("ifcopenshell.util.element")
     values: dict[str, Any] = {}
-    for part in [*util.get_decomposition(element, is_recursive=True), element]:
+    above = parent(element) if element.is_a("IfcLamp") else None
+    for part in [above, element] if above is not None and above.is_a("IfcLightFixture") else [element]:
         for properties in util.get_psets(part).values():
             values.update({name: value for name, value in properties.items() if isinstance(value, (str, int, float))})
     return values

@@ -18,8 +18,8 @@ RADIUS = 0.02
 FULL_CONE = 180.0
 
 
-def lamp(writer: Writer, above: str, found: Lamp, has_body: bool) -> None:
-    """A light below its fixture, whose body casts no shadow on it: photometry is that of the whole luminaire."""
+def lamp(writer: Writer, above: str, found: Lamp, body: str | None) -> None:
+    """A light below its fixture; the luminaire's body casts no shadow on it, for photometry is that of the whole luminaire."""
     path = writer.names.below(above, "Light")
     if not writer.stage.GetPrimAtPath(above):
         writer.geom.Xform.Define(writer.stage, above)
@@ -44,10 +44,10 @@ def lamp(writer: Writer, above: str, found: Lamp, has_body: bool) -> None:
         shaping.CreateShapingConeAngleAttr(found.cone)
         shaping.CreateShapingConeSoftnessAttr(found.softness)
         shaping.CreateShapingFocusAttr(found.focus)
-    if has_body:
+    if body:
         blockers = writer.usd.CollectionAPI.Apply(prim, "shadowLink")
         blockers.CreateIncludeRootAttr(True)
-        blockers.CreateExcludesRel().SetTargets([above])
+        blockers.CreateExcludesRel().SetTargets([body])
 
 
 def grid(writer: Writer, path: str, found: Grid) -> None:

@@ -58,8 +58,9 @@ class _Build:
         self._write_bodies(bodies, {fixture.element.id() for fixture, _ in lit})
         with_body = {body.element.id() for body in bodies}
         for fixture, lamps in lit:
+            has_body = not with_body.isdisjoint([fixture.element.id(), fixture.whole.id()])
             for lamp in lamps:
-                prims.lamp(self.writer, self.tree.path(fixture.element), lamp, fixture.element.id() in with_body)
+                prims.lamp(self.writer, self.tree.path(fixture.element), lamp, self.tree.path(fixture.whole) if has_body else None)
         for grid in grids:
             prims.grid(self.writer, self.tree.path(grid.space), grid)
         for path, entity in self.tree.entities.items():

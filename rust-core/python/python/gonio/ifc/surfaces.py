@@ -25,8 +25,9 @@ class Kind:
     # The transmittance that its properties state goes before that of styles.
     is_stated: bool
     is_window: bool
-    is_slab: bool
     is_glass: bool
+    # What is up in the element's own space, of slabs alone.
+    up: tuple[float, ...] | None
 
 
 # Slabs and roofs without a style: faces within 45° of level are floor and ceiling.
@@ -48,9 +49,9 @@ class Surfaces:
     def parts(self, placed: Placed) -> Parts:
         """Faces by their looks."""
         element, shape = placed.element, placed.shape
-        kind = Kind(looks.default("element", looks.WALL), GLASS, False, False, False, False)
+        kind = Kind(looks.default("element", looks.WALL), GLASS, False, False, False, None)
         with self.notes.sound(element):
-            kind = _kind(element)
+            kind = _kind(element, placed.matrix)
         key = (shape.key, kind)
         if key not in self._parts:
             self._parts[key] = self._of_shape(element, shape, kind)
@@ -103,17 +104,17 @@ class Surfaces:
         return parts
 
 
-def _kind(element: Any) -> Kind:
+def _kind(element: Any, matrix: Any) -> Kind:
     util = require("ifcopenshell.util.element")
     materials = util.get_materials(element)
     stated = util.get_pset(element, *GLAZING)
     is_stated = isinstance(stated, float) and 0.0 < stated <= 1.0
     glass = Look(f"Glass {stated:g}", transmittance=(stated,) * 3) if is_stated else GLASS
-    is_slab = any(element.is_a(name) for name in SLABS)
+    up = tuple(np.round(matrix[2, :3], 3).tolist()) if any(element.is_a(name) for name in SLABS) else None
     # The panels of curtain walls are named by what they are.
     names = [element.Name if element.is_a("IfcPlate") else None, materials[0].Name if len(materials) == 1 else None]
     is_glass = any(looks.is_glass(name) for name in names)
-    return Kind(looks.of_class(element), glass, is_stated, element.is_a("IfcWindow"), is_slab, is_glass)
+    return Kind(looks.of_class(element), glass, is_stated, element.is_a("IfcWindow"), is_glass, up)
 
 
 def _by_form(shape: Shape) -> Any:
@@ -126,11 +127,11 @@ def _by_form(shape: Shape) -> Any:
 
 def _without_style(kind: Kind, shape: Shape) -> list[tuple[Look, Any]]:
     """Which faces have which look by what the element is; those of slabs by where they look."""
-    if kind.is_glass or not kind.is_slab:
+    if kind.is_glass or kind.up is None:
         return [(kind.glass if kind.is_glass else kind.plain, np.ones(len(shape.faces), bool))]
     a, b, c = (shape.points[shape.faces[:, i]] for i in range(3))
     normals = np.cross(b - a, c - a)
-    slopes = normals[:, 2] / np.maximum(np.linalg.norm(normals, axis=1), 1e-30)
+    slopes = normals @ kind.up / np.maximum(np.linalg.norm(normals, axis=1), 1e-30)
     sides = [(looks.default("floor", looks.FLOOR), slopes > LEVEL), (looks.default("ceiling", looks.CEILING), slopes < -LEVEL)]
     return [*sides, (kind.plain, np.abs(slopes) <= LEVEL)]
 
