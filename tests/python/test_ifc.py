@@ -1,6 +1,7 @@
 """IFC building models as stages: sizes, names, styles, panes, notes, and what is refused."""
 
 import math
+import re
 import sys
 
 import numpy as np
@@ -216,11 +217,14 @@ def test_broken_models_end_in_an_error_and_the_process_goes_on(tmp_path):
 def test_malformed_parts_are_told_and_the_rest_stays(tmp_path):
     building = Building()
     building.block("IfcWall", "Wall", (0, 0, 0), (4, 0.2, 3))
-    lamp = building.fixture("Lamp", (0, 0, 2), building.goniometric(None))
+    lamp = building.fixture("Lamp", (0, 0, 2), building.goniometric(building.file("lamp.ies")))
     building.site.RefLatitude, building.site.RefLongitude = (48, 12, 36), (16, 22, 12)
     building.context.TrueNorth = building.model.create_entity("IfcDirection", (1.0,))
-    stage, notes = written(building, tmp_path)
-    assert len(looks(stage, f"{GROUND}/Wall")) == 1 and "48.21000" in notes
+    # The lamp's last attribute, its distribution, is missing.
+    text = building.save(tmp_path / "model.ifc").read_text()
+    (tmp_path / "model.ifc").write_text(re.sub(r"(LIGHTEMITTINGDIODE\.,)#\d+", r"\1$", text))
+    notes = "\n".join(build(tmp_path / "model.ifc", tmp_path / "model.usda"))
+    assert Usd.Stage.Open(str(tmp_path / "model.usda")).GetPrimAtPath(f"{GROUND}/Wall") and "48.21000" in notes
     assert notes.count("malformed") == 2 and f"IfcLightFixture 'Lamp' ({lamp.GlobalId})" in notes
 
 

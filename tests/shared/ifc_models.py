@@ -104,7 +104,7 @@ class Building:
     def hole(self, element, low, high):
         """An opening through an element."""
         opening = self.block("IfcOpeningElement", None, low, high)
-        self.model.create_entity("IfcRelVoidsElement", _guid(), None, None, None, element, opening)
+        self.model.create_entity("IfcRelVoidsElement", _guid(), element.OwnerHistory, None, None, element, opening)
         return opening
 
     def colour(self, values):
