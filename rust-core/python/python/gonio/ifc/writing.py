@@ -16,6 +16,8 @@ from .tree import MATERIALS, ROOT, SHAPES, Names, identifier, title
 GLASS_INDEX = 1.52
 # Shapes with as many triangles that stand several times are instances.
 SHARED_FROM = 32
+# What light passes as if it were not there.
+NOTHING = Look("Nothing")
 
 
 class Writer:
@@ -116,7 +118,7 @@ class Writer:
 
 
 def _inputs(look: Look) -> dict[str, Any]:
-    if look.name == NOTHING.name:
+    if look == NOTHING:
         return {"geometry_opacity": 0.0}
     if look.is_pane:
         index, tint = _pane(look.transmittance)
@@ -125,10 +127,6 @@ def _inputs(look: Look) -> dict[str, Any]:
     if look.metal:
         return {"base_metalness": 1.0, "base_color": look.reflectance, "specular_roughness": look.roughness}
     return {"base_color": look.reflectance, "base_weight": 1.0, "specular_weight": 0.0}
-
-
-# What light passes as if it were not there.
-NOTHING = Look("Nothing")
 
 
 def _pane(transmittance: tuple[float, float, float]) -> tuple[float, tuple[float, ...]]:
