@@ -19,7 +19,7 @@ FUZZED := ies ldt tm33 goniogram gldf gldf-product l3d l3d-structure rays weathe
 $(VENV)/ready: pyproject.toml Makefile
 	command -v $(PYTHON) >/dev/null && $(PYTHON) -m venv $(VENV) || python3 -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --upgrade pip
-	$(BIN)/python -m pip install --quiet "maturin>=1.9,<2" "usd-core>=25.5" "materialx>=1.39,<2" "pyoidn>=2.5,<3" "PySide6-Essentials>=6.6" numpy pytest pytest-timeout pytest-xdist openexr mypy
+	$(BIN)/python -m pip install --quiet "maturin>=1.9,<2" "usd-core>=25.5" "materialx>=1.39,<2" "ifcopenshell>=0.8.1" "pyoidn>=2.5,<3" "PySide6-Essentials>=6.6" numpy pytest pytest-timeout pytest-xdist openexr mypy
 	touch $@
 
 # The wheel of this machine, which the gate's tests install everywhere, so that the engine's code is generated once.

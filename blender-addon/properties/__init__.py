@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Settings that live in the .blend file: `scene.gonio`, `view_layer.gonio`, `object.gonio`, `light.gonio`, `world.gonio`."""
+"""Settings that live in the .blend file: `scene.gonio`, `view_layer.gonio`, `object.gonio`, `light.gonio`, `material.gonio`,
+`world.gonio`."""
 
 import bpy
 
-from . import light, object, scene, view_layer, world
+from . import light, material, object, scene, view_layer, world
 
 OWNERS = (
     (bpy.types.Scene, scene.GonioSceneSettings),
@@ -11,6 +12,7 @@ OWNERS = (
     (bpy.types.Object, object.GonioObjectSettings),
     (bpy.types.Light, light.GonioLightSettings),
     (bpy.types.World, world.GonioWorldSettings),
+    (bpy.types.Material, material.GonioMaterialSettings),
 )
 
 

@@ -15,6 +15,7 @@ mod daylight;
 mod denoise;
 mod dim;
 mod drawing;
+mod emergency;
 mod explain;
 mod falsecolor;
 mod farm;
@@ -24,6 +25,7 @@ mod foreign;
 mod frames;
 mod glare;
 mod goniometer;
+mod ifc;
 mod info;
 mod interrupt;
 mod lamps_in_view;
@@ -114,6 +116,7 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
         Command::Sensor(options) => py.detach(|| sensor::sensor(&options)),
         Command::Bsdf(options) => bsdf::bsdf(py, &options, &INTERRUPTED),
         Command::Measure(options) => measure::measure(py, &options, &INTERRUPTED),
+        Command::Emergency(options) => emergency::emergency(py, &options, &INTERRUPTED),
         Command::Dim(options) => dim::dim(py, &options, &INTERRUPTED),
         Command::Goniometer(options) => goniometer::goniometer(py, &options, &INTERRUPTED),
         Command::Map(options) => map::map(py, &options, &INTERRUPTED),
@@ -123,6 +126,7 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
         Command::Road(options) => py.detach(|| road::road(&options, &INTERRUPTED)),
         Command::Verdict(options) => verdict::verdict(py, &options, &INTERRUPTED),
         Command::Annual(options) => annual::trace::annual(py, &options, &INTERRUPTED),
+        Command::AnnualGlare(options) => annual::glare::annual_glare(py, &options, &INTERRUPTED),
         Command::AnnualMetrics(options) => py.detach(|| annual::annual_metrics(&options, &INTERRUPTED)),
         Command::Glare(options) => py.detach(|| glare::glare(&options)),
         Command::Bench(options) => py.detach(|| bench::bench(&options, &INTERRUPTED)),

@@ -7,6 +7,7 @@ use super::{
     daylight, explain,
     file::check_targets,
     file_name, frames,
+    ifc::is_ifc,
     messages::list,
     messages::print,
     messages::say,
@@ -253,7 +254,7 @@ pub(super) fn complete_scene(options: &RenderOptions, loaded: &mut Loaded, produ
 fn headlight(options: &RenderOptions) -> Headlight {
     match options.headlight {
         Some(HeadlightArgument::Dome) => Headlight::Dome,
-        None if is_model(&options.stage.stage) => Headlight::Dome,
+        None if is_model(&options.stage.stage) || is_ifc(&options.stage.stage) => Headlight::Dome,
         _ => Headlight::Camera,
     }
 }

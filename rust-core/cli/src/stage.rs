@@ -1,6 +1,9 @@
-//! The door by which commands read what they are given: USD stages, honeybee's models and Radiance's scenes.
+//! The door by which commands read what they are given: USD stages, honeybee's models, Radiance's scenes and IFC models.
 
-use super::messages::say;
+use super::{
+    ifc::{IfcStage, is_ifc},
+    messages::say,
+};
 use gonio::map::FaceTable;
 use gonio::scene::{HAZE_ANISOTROPY, Medium, Origin, Transform, VISIBILITY_CONTRAST};
 use gonio::{Error, Result, Severity};
@@ -14,6 +17,7 @@ use std::time::Duration;
 /// What was opened.
 pub(super) enum Stage {
     Usd(Box<gonio_usd::Stage>),
+    Ifc(Box<IfcStage>),
     Model(Box<OpenModel>),
 }
 
@@ -37,6 +41,7 @@ impl Stage {
         }
         match states.first() {
             Some((group, _)) => Err(Error::setting("state", format!("'{group}' was found; dynamic groups are those of honeybee's models"))),
+            None if is_ifc(path) => IfcStage::open(py, path, options).map(|stage| Self::Ifc(Box::new(stage))),
             None => gonio_usd::Stage::open(py, path, options).map(|stage| Self::Usd(Box::new(stage))),
         }
     }
@@ -45,6 +50,7 @@ impl Stage {
     pub(super) fn info(&self) -> &StageInfo {
         match self {
             Self::Usd(stage) => stage.info(),
+            Self::Ifc(model) => model.stage.info(),
             Self::Model(model) => &model.loaded.info,
         }
     }
@@ -56,6 +62,7 @@ impl Stage {
     pub(super) fn load(&self, py: Python<'_>, options: &StageOptions, cancel: &AtomicBool) -> Result<Loaded> {
         match self {
             Self::Usd(stage) => stage.load(py, options, cancel),
+            Self::Ifc(model) => model.load(py, options, cancel),
             Self::Model(model) => model.load(options),
         }
     }
@@ -67,6 +74,9 @@ impl Stage {
     pub(super) fn usd(&self, option: &str) -> Result<&gonio_usd::Stage> {
         match self {
             Self::Usd(stage) => Ok(stage),
+            // A layer over it would outlive it.
+            Self::Ifc(model) if option == "output" => Err(for_usd(option, model.path())),
+            Self::Ifc(model) => Ok(&model.stage),
             Self::Model(model) => Err(for_usd(option, &model.path)),
         }
     }
@@ -78,6 +88,7 @@ impl Stage {
     pub(super) fn is_made_of(&self, py: Python<'_>, file: &Path) -> Result<bool> {
         match self {
             Self::Usd(stage) => stage.is_made_of(py, file),
+            Self::Ifc(model) => model.stage.is_made_of(py, file),
             Self::Model(_) => Ok(false),
         }
     }
@@ -94,6 +105,7 @@ impl Stage {
     pub(super) fn faces(&self, py: Python<'_>, prim: &str, frame: Option<f64>) -> Option<FaceTable> {
         match self {
             Self::Usd(stage) => stage.faces(py, prim, frame),
+            Self::Ifc(model) => model.stage.faces(py, prim, frame),
             Self::Model(_) => None,
         }
     }
@@ -122,7 +134,7 @@ impl OpenModel {
 /// Lights a model that has no light by the overcast sky, and says so; stages stay as they are.
 pub(super) fn light_model(path: &Path, loaded: &mut Loaded, is_quiet: bool) {
     let scene = &mut loaded.scene;
-    if !is_model(path) || !scene.lights.is_empty() || scene.materials.iter().any(shines) {
+    if !(is_model(path) || is_ifc(path)) || !scene.lights.is_empty() || scene.materials.iter().any(shines) {
         return;
     }
     add_default_sky(scene);

@@ -3,6 +3,7 @@
 use super::{
     arguments::{Arguments, Command, ShowArgument, ViewOptions},
     daylight,
+    ifc::is_ifc,
     interrupt::INTERRUPTED,
     render::stage_options,
     stage::Stage,
@@ -43,7 +44,11 @@ pub fn view_scene(py: Python<'_>, words: &[String], folder: &Path, frame: Option
     let wanted = view::ViewOptions {
         camera: options.camera.clone(),
         camera_light: !options.disable_camera_light,
-        headlight: if is_model(&options.stage.stage) { view::Headlight::Dome } else { view::Headlight::Camera },
+        headlight: if is_model(&options.stage.stage) || is_ifc(&options.stage.stage) {
+            view::Headlight::Dome
+        } else {
+            view::Headlight::Camera
+        },
         data_window: false,
         ..view::ViewOptions::default()
     };

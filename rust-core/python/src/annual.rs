@@ -24,7 +24,7 @@ use pyo3::prelude::*;
 use std::path::Path;
 
 /// Bytes of the hours that are calculated together.
-const MEMORY: usize = 256 << 20;
+pub(crate) const MEMORY: usize = 256 << 20;
 
 /// A year of daylight on one grid.
 #[pyclass(frozen, module = "gonio")]
@@ -152,14 +152,14 @@ pub(crate) fn annual(
     })
 }
 
-fn measured(scene: &Description, samples: u32) -> Description {
+pub(crate) fn measured(scene: &Description, samples: u32) -> Description {
     let mut scene = scene.clone();
     (scene.settings.samples, scene.settings.max_bounces) = (samples.max(1), MOST_BOUNCES);
     scene
 }
 
 /// Hours of use of every day, a pair, or numbers for each step; without any 8 to 18.
-fn used_steps(schedule: Option<&Bound<'_, PyAny>>, year: &Year) -> PyResult<Schedule> {
+pub(crate) fn used_steps(schedule: Option<&Bound<'_, PyAny>>, year: &Year) -> PyResult<Schedule> {
     let Some(given) = schedule else { return Schedule::daily(year, 8.0, 18.0).map_err(|error| exception(told(error))) };
     let numbers: Vec<f64> = given.extract()?;
     let found = match numbers[..] {
@@ -169,7 +169,7 @@ fn used_steps(schedule: Option<&Bound<'_, PyAny>>, year: &Year) -> PyResult<Sche
     found.map_err(|error| exception(told(error)))
 }
 
-fn model(name: &str) -> PyResult<Model> {
+pub(crate) fn model(name: &str) -> PyResult<Model> {
     match SkyModel::parse(name).map_err(exception)? {
         SkyModel::Perez => Ok(Model::Perez),
         SkyModel::Cie(kind) => Ok(Model::Cie(kind)),

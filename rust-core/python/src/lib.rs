@@ -1,6 +1,7 @@
 //! `_gonio`: what the Python package `gonio` is made of.
 
 mod annual;
+mod annual_glare;
 mod array;
 mod artist_sky;
 mod bake;
@@ -48,6 +49,8 @@ mod _gonio {
     #[pymodule_export]
     use crate::annual::{AnnualReading, annual};
     #[pymodule_export]
+    use crate::annual_glare::{AnnualGlareReading, annual_glare};
+    #[pymodule_export]
     use crate::array::Array;
     #[pymodule_export]
     use crate::artist_sky::{artist_sky, sky_formula, sky_table};
@@ -90,7 +93,7 @@ mod _gonio {
     #[pymodule_export]
     use crate::spectral_picture::{SpectralPicture, spectral_picture};
     #[pymodule_export]
-    use crate::spectrum::{colour_reflectance, illuminant, read_spectrum, spectrum_figures};
+    use crate::spectrum::{colour_reflectance, illuminant, metal, read_metal, read_spectrum, spectrum_figures};
     #[pymodule_export]
     use crate::sunlight::sunlight;
     #[pymodule_export]

@@ -1,7 +1,7 @@
 //! Spectra of lamps and what they say.
 
 use crate::error::{exception, setting};
-use gonio_spectrum::{Figures, OPSINS, REC709_TO_REC2020, Spectrum, White, named, upsampling};
+use gonio_spectrum::{Figures, MetalIndex, OPSINS, REC709_TO_REC2020, Spectrum, White, named, upsampling};
 use pyo3::{prelude::*, types::PyDict};
 
 /// The spectrum of a file's bytes, text of nm and power or IES TM-27: `name`, `wavelengths_nm`, `power` over its largest, and `notes` on the data.
@@ -18,6 +18,32 @@ pub(crate) fn illuminant<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py
     let unknown = || setting("name", format!("'{name}' was found, expected one of {}", gonio_spectrum::NAMES));
     let found = named(name).ok_or_else(unknown)?.map_err(|error| setting("name", error.problem))?;
     described(py, &found)
+}
+
+/// The metal of a name such as `gold`, `Au` or `Au-McPeak`: `name`, `wavelengths_nm`, `n`, `k` (index and extinction at each), `color` (linear Rec.709 at
+/// normal incidence by daylight) and `notes` on the data.
+#[pyfunction]
+pub(crate) fn metal<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyDict>> {
+    let unknown = || setting("metal", format!("'{name}' was found, expected one of {}", gonio_spectrum::metal_sets().join(", ")));
+    metal_described(py, &gonio_spectrum::metal(name).ok_or_else(unknown)?)
+}
+
+/// The metal of a file's bytes as `metal` gives it: rows of wavelength (nm or micrometres), n and k.
+#[pyfunction]
+pub(crate) fn read_metal<'py>(py: Python<'py>, data: &[u8], name: &str) -> PyResult<Bound<'py, PyDict>> {
+    let found = gonio_spectrum::read_metal(data, name).map_err(|error| exception(gonio::Error::in_file(name, &error)))?;
+    metal_described(py, &found)
+}
+
+fn metal_described<'py>(py: Python<'py>, metal: &MetalIndex) -> PyResult<Bound<'py, PyDict>> {
+    let described = PyDict::new(py);
+    described.set_item("name", &metal.name)?;
+    described.set_item("wavelengths_nm", &metal.wavelengths_nm)?;
+    described.set_item("n", &metal.n)?;
+    described.set_item("k", &metal.k)?;
+    described.set_item("color", metal.colour(1.0).to_vec())?;
+    described.set_item("notes", &metal.notes)?;
+    Ok(described)
 }
 
 /// The reflectance that a linear Rec.709 colour within 0 to 1 stands for in spectral renders, at wavelengths in nm (Jakob and Hanika 2019).

@@ -1,5 +1,6 @@
 //! `gonio annual` and `gonio annual-metrics`: a year of daylight.
 
+pub(super) mod glare;
 mod inputs;
 mod pictures;
 mod series;

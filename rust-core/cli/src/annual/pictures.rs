@@ -17,6 +17,9 @@ const SIDE: usize = 900;
 /// Steps of the scales, and decades of that of the year.
 const STEPS: u32 = 10;
 const DECADES: f32 = 2.0;
+/// End and steps of the scale of glare: 0.35, 0.40 and 0.45 are edges.
+const GLARE: f32 = 0.6;
+const GLARE_STEPS: u32 = 12;
 /// Pixels at the left and below for hours and months, and of their letters.
 const MARGIN: [usize; 2] = [32, 28];
 const LETTERS: usize = 15;
@@ -55,7 +58,8 @@ pub(super) fn draw(folder: &Path, name: &str, (grid, plan): (&Grid, &AnnualGrid)
         falsecolor::write(path, &style(drawn.max, &values, drawn.unit)?.draw(&pixels, size))?;
     }
     if let Some(path) = paths.last() {
-        falsecolor::write(path, &carpet(year, means)?)?;
+        let scale = FalseColourScale::new(FalseColourScale::round_max(means), STEPS, Some(DECADES))?;
+        falsecolor::write(path, &carpet(year, means, scale, "lx"))?;
     }
     Ok(paths)
 }
@@ -73,8 +77,14 @@ fn cells(values: &[f32], [columns, rows]: [usize; 2]) -> (Vec<f32>, [usize; 2]) 
     ((0..size[0] * size[1]).map(value).collect(), size)
 }
 
+/// Draws a year of glare at an eye.
+pub(super) fn glare_carpet(path: &Path, year: &Year, values: &[f32]) -> Result<()> {
+    let scale = FalseColourScale::new(GLARE, GLARE_STEPS, None)?;
+    falsecolor::write(path, &carpet(year, values, scale, "DGP"))
+}
+
 /// Days from left to right, hours from the bottom up, with months and hours beside them.
-fn carpet(year: &Year, means: &[f32]) -> Result<Canvas> {
+fn carpet(year: &Year, means: &[f32], scale: FalseColourScale, unit: &str) -> Canvas {
     let of_day = (24.0 / year.step_hours).round() as usize;
     let days = means.len() / of_day.max(1);
     let inner = [days * DAY, 24 * HOUR];
@@ -87,8 +97,7 @@ fn carpet(year: &Year, means: &[f32]) -> Result<Canvas> {
         means[(x - MARGIN[0]) / DAY * of_day + (inner[1] - 1 - y) * of_day / inner[1]]
     };
     let pixels: Vec<f32> = (0..size[0] * size[1]).map(value).collect();
-    let scale = FalseColourScale::new(FalseColourScale::round_max(means), STEPS, Some(DECADES))?;
-    let style = FalseColour { scale, unit: "lx".into(), contours: false, smoothing: 0, legend: true };
+    let style = FalseColour { scale, unit: unit.into(), contours: false, smoothing: 0, legend: true };
     let mut canvas = style.draw(&pixels, size);
     canvas.shade([0, 0], [MARGIN[0], size[1]], PAPER);
     canvas.shade([0, inner[1]], [size[0], MARGIN[1]], PAPER);
@@ -102,5 +111,5 @@ fn carpet(year: &Year, means: &[f32]) -> Result<Canvas> {
     for (day, name) in starts.zip(["Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"]) {
         canvas.write(name, [MARGIN[0] + day * DAY + 4, inner[1] + 6], LETTERS, INK);
     }
-    Ok(canvas)
+    canvas
 }

@@ -17,6 +17,15 @@ pub(super) const ANNUAL_EXAMPLES: &str = "Examples:
 
 The stage's lamps are dark and its sky and sun give way to the weather's. docs/annual.md takes you from a weather file to sDA in five minutes.";
 
+/// The end of `gonio annual-glare --help`.
+pub(super) const ANNUAL_GLARE_EXAMPLES: &str = "Examples:
+  gonio annual-glare office.usda --weather mannheim.epw --eye 1.8,1.5,1.2 --facing 0,-1,0
+  gonio annual-glare office.usda --weather mannheim.epw --eye 1.8,1.5,1.2 --directions 8 --json
+  gonio annual-glare office.usda --weather mannheim.epw --grid /Office/Floor --spacing 1 --margin 0.5 --directions 4 -o out
+
+Sources of glare are the sun and patches of the sky above 2000 cd/m², seen straight or through thin panes; what light scatters from counts at the eye alone.
+Blinds are as the stage has them: --variant chooses.";
+
 /// The end of `gonio annual-metrics --help`.
 pub(super) const ANNUAL_METRICS_EXAMPLES: &str = "Examples:
   gonio annual-metrics --weather mannheim.epw --coefficients office.mtx
@@ -97,6 +106,41 @@ pub(crate) struct AnnualOptions {
     #[arg(long, short = 'm', value_name = "FACTOR", default_value_t = 2, value_parser = count::<u32>(1..=6))]
     pub(crate) factor: u32,
     /// Paths a point.
+    #[arg(long, short = 'p', value_name = "COUNT", default_value_t = 8192, value_parser = count::<u32>(1..=1 << 20))]
+    pub(crate) spp: u32,
+    /// Limit of the bounces; without one all count that matter.
+    #[arg(long = "max-bounces", value_name = "COUNT", value_parser = count::<u32>(0..=u64::from(u32::MAX)))]
+    pub(crate) max_bounces: Option<u32>,
+    #[command(flatten)]
+    pub(crate) work: WorkArguments,
+    #[command(flatten)]
+    pub(crate) textures: TextureArguments,
+    /// Write nothing but answers and errors.
+    #[arg(long, short = 'q')]
+    pub(crate) quiet: bool,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct AnnualGlareOptions {
+    #[command(flatten)]
+    pub(crate) stage: StageArguments,
+    #[command(flatten)]
+    pub(crate) year: YearArguments,
+    #[command(flatten)]
+    pub(crate) grids: GridArguments,
+    /// An eye at this point of the world, in metres; may be given several times. Grids have eyes at their points, 1.2 m above the surface unless --height says.
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
+    pub(crate) eye: Vec<String>,
+    /// Where all eyes look; may be given several times. Without it they look around.
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
+    pub(crate) facing: Vec<String>,
+    /// So many level directions around, the first one +Y (-Z where Y is up); 4 where nothing is said.
+    #[arg(long, value_name = "COUNT", conflicts_with = "facing", value_parser = count::<u32>(1..=64))]
+    pub(crate) directions: Option<u32>,
+    /// Reinhart's division of the sky, 1 (Tregenza's 145 patches) to 6. The sun stands at its place at any.
+    #[arg(long, short = 'm', value_name = "FACTOR", default_value_t = 4, value_parser = count::<u32>(1..=6))]
+    pub(crate) factor: u32,
+    /// Paths an eye.
     #[arg(long, short = 'p', value_name = "COUNT", default_value_t = 8192, value_parser = count::<u32>(1..=1 << 20))]
     pub(crate) spp: u32,
     /// Limit of the bounces; without one all count that matter.

@@ -8,6 +8,7 @@ mod client_page;
 mod completion;
 mod daylight;
 mod dim;
+mod emergency;
 mod falsecolor;
 mod farm;
 mod glare;
@@ -31,7 +32,7 @@ mod verdict;
 mod view;
 mod work;
 
-pub(super) use annual::{AnnualMetricsOptions, AnnualOptions, MetricArgument, YearArguments};
+pub(super) use annual::{AnnualGlareOptions, AnnualMetricsOptions, AnnualOptions, MetricArgument, YearArguments};
 pub(super) use bench::BenchOptions;
 pub(super) use bsdf::{BsdfOptions, SampleArguments};
 pub(super) use checkpoint::{CheckpointArguments, MergeArguments};
@@ -39,6 +40,7 @@ pub(super) use client_page::ShareOptions;
 pub(super) use completion::{CompletionOptions, ShellArgument};
 pub(super) use daylight::DaylightArguments;
 pub(super) use dim::DimOptions;
+pub(super) use emergency::EmergencyOptions;
 pub(super) use falsecolor::{FalsecolorOptions, ScaleArguments};
 pub(super) use farm::FarmArguments;
 pub(super) use glare::GlareArguments;
@@ -61,11 +63,12 @@ pub(super) use verdict::VerdictOptions;
 pub(super) use view::{ShowArgument, ViewOptions};
 pub(super) use work::WorkArguments;
 
-use annual::{ANNUAL_EXAMPLES, ANNUAL_METRICS_EXAMPLES};
+use annual::{ANNUAL_EXAMPLES, ANNUAL_GLARE_EXAMPLES, ANNUAL_METRICS_EXAMPLES};
 use bsdf::BSDF_EXAMPLES;
 use clap::{Parser, Subcommand};
 use client_page::SHARE_EXAMPLES;
 use dim::DIM_EXAMPLES;
+use emergency::EMERGENCY_EXAMPLES;
 use goniometer::GONIOMETER_EXAMPLES;
 use map::MAP_EXAMPLES;
 use measure::MEASURE_EXAMPLES;
@@ -197,9 +200,15 @@ pub(super) enum Command {
     /// lighting class.
     #[command(after_long_help = ROAD_EXAMPLES)]
     Road(RoadOptions),
+    /// Calculate emergency lighting as EN 1838 has it: illuminances on escape routes, in open areas and at places, and luminaires that may dazzle.
+    ///
+    /// A TOML file says where people flee, which lights shine then and how much of their flux is left. Light comes straight from the lamps; what the
+    /// building holds throws shadows. 'gonio verdict' compares the figures with your own requirements.
+    #[command(after_long_help = EMERGENCY_EXAMPLES)]
+    Emergency(Box<EmergencyOptions>),
     /// Say whether what was measured meets what is required, line by line and by the standard errors: met, not met, or within the error.
     ///
-    /// Requirements are a TOML file of your own numbers; figures come from 'gonio measure', 'gonio annual' and 'gonio road' with --json. Writes the
+    /// Requirements are a TOML file of your own numbers; figures come from 'gonio measure', 'gonio annual', 'gonio road' and 'gonio emergency' with --json. Writes the
     /// planner's sheet as HTML or PDF. It is no certificate of conformity with a standard.
     #[command(after_long_help = VERDICT_EXAMPLES)]
     Verdict(VerdictOptions),
@@ -209,6 +218,11 @@ pub(super) enum Command {
     /// Grids are the stage's own and those over prims that --grid names, as 'gonio measure' has them.
     #[command(after_long_help = ANNUAL_EXAMPLES)]
     Annual(Box<AnnualOptions>),
+    /// Rate daylight glare over a year for eyes in a USD stage: DGP by hour, how often it is exceeded, and the class of EN 17037.
+    ///
+    /// Light at the eye comes by coefficients as 'gonio annual' traces them, contrast by the sun and by patches of the sky that the eye sees.
+    #[command(after_long_help = ANNUAL_GLARE_EXAMPLES)]
+    AnnualGlare(Box<AnnualGlareOptions>),
     /// Calculate a year of daylight from coefficients and a weather file: sDA, ASE, daylight autonomy, UDI, EN 17037, with standard errors.
     ///
     /// No light is traced: coefficients say what each patch of the sky brings to each point, the weather file how bright each patch is, hour by

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 /// What of the stage is read.
 #[derive(Args, Clone, Debug)]
 pub(crate) struct StageArguments {
-    /// The stage: a .usd, .usda, .usdc or .usdz file; or a honeybee model (.hbjson) or a Radiance scene (.rad).
+    /// The stage: a .usd, .usda, .usdc or .usdz file; or a honeybee model (.hbjson), a Radiance scene (.rad) or an IFC building model (.ifc).
     pub(crate) stage: PathBuf,
     /// Purposes shown beside 'default': render, proxy, guide, separated by commas; without it those of the render settings, or render.
     #[arg(long, value_name = "PURPOSES", value_delimiter = ',')]

@@ -1,6 +1,7 @@
 """Physically exact rendering on SIMD lanes, with answers in cd/m² and lux."""
 
 from ._gonio import (
+    AnnualGlareReading,
     AnnualReading,
     Array,
     Cancelled,
@@ -32,6 +33,7 @@ from ._gonio import (
     UnsupportedError,
     __version__,
     annual,
+    annual_glare,
     artist_sky,
     colour_reflectance,
     daylight,
@@ -44,7 +46,9 @@ from ._gonio import (
     load_usd,
     measure,
     merge,
+    metal,
     read_goniogram,
+    read_metal,
     read_spectrum,
     read_weather,
     sample_bsdf,
@@ -62,6 +66,7 @@ from .scene import Scene
 from .texture import Texture
 
 __all__ = [
+    "AnnualGlareReading",
     "AnnualReading",
     "Array",
     "Cancelled",
@@ -95,6 +100,7 @@ __all__ = [
     "UnsupportedError",
     "__version__",
     "annual",
+    "annual_glare",
     "artist_sky",
     "colour_reflectance",
     "daylight",
@@ -109,7 +115,9 @@ __all__ = [
     "look_at",
     "measure",
     "merge",
+    "metal",
     "read_goniogram",
+    "read_metal",
     "read_spectrum",
     "read_weather",
     "sample_bsdf",

@@ -23,8 +23,10 @@ __all__ = [
     "SceneError",
     "SettingError",
     "UnsupportedError",
+    "AnnualGlareReading",
     "AnnualReading",
     "annual",
+    "annual_glare",
     "Array",
     "Film",
     "Coverage",
@@ -67,6 +69,8 @@ __all__ = [
     "ugr_table",
     "colour_reflectance",
     "illuminant",
+    "metal",
+    "read_metal",
     "read_spectrum",
     "spectral_picture",
     "spectrum_figures",
@@ -257,6 +261,37 @@ def annual(
     north: float = 0.0,
     cancelled: Callable[[], bool] | None = None,
 ) -> list[AnnualReading]: ...
+
+@final
+class AnnualGlareReading:
+    @property
+    def position(self) -> list[float]: ...
+    @property
+    def facing(self) -> list[float]: ...
+    @property
+    def figures(self) -> dict[str, float]: ...
+    @property
+    def standard_errors(self) -> dict[str, float] | None: ...
+    @property
+    def en17037(self) -> str: ...
+    @property
+    def values(self) -> Array: ...
+
+def annual_glare(
+    scene: Scene,
+    weather: bytes,
+    eyes: Sequence[tuple[Sequence[float], Sequence[float]]],
+    *,
+    samples: int = 8192,
+    division: int = 4,
+    schedule: Sequence[float] | None = None,
+    sky: str = "perez",
+    ground: float = 0.2,
+    dew_point: float | None = None,
+    up: str = "Z",
+    north: float = 0.0,
+    cancelled: Callable[[], bool] | None = None,
+) -> list[AnnualGlareReading]: ...
 
 @final
 class LuminaireReading:
@@ -942,6 +977,8 @@ def ugr_table(
 ) -> dict[str, Any]: ...
 def colour_reflectance(colour: tuple[float, float, float], wavelengths_nm: Sequence[float]) -> list[float]: ...
 def illuminant(name: str) -> dict[str, Any]: ...
+def metal(name: str) -> dict[str, Any]: ...
+def read_metal(data: bytes, name: str) -> dict[str, Any]: ...
 def read_spectrum(data: bytes, name: str) -> dict[str, Any]: ...
 def spectral_picture(
     scene: Scene, *, band: float = 5.0, cancelled: Callable[[], bool] | None = None

@@ -6,9 +6,11 @@ import math
 import sys
 from array import array
 from collections.abc import Mapping, Sequence
+from os import PathLike
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ._gonio import _setting_error, surface_parameters
+from ._gonio import _setting_error, metal, read_metal, surface_parameters
 from .texture import Texture
 
 if TYPE_CHECKING:
@@ -50,7 +52,8 @@ def columns(matrix: Matrix | None) -> dict[str, Any]:
 
 
 def material(name: str, parameters: Mapping[str, Any]) -> dict[str, Any]:
-    """A material of one OpenPBR surface; its parameters are numbers, triples or textures, `normal` a texture of tangent-space normals."""
+    """A material of one OpenPBR surface; its parameters are numbers, triples or textures, `normal` a texture of tangent-space normals, `metal` what it
+    is made of."""
     given = dict(parameters)
     closure: dict[str, Any] = {"thin_walled": given.pop("thin_walled", False)}
     nodes: list[dict[str, Any]] = []
@@ -59,8 +62,20 @@ def material(name: str, parameters: Mapping[str, Any]) -> dict[str, Any]:
             raise _setting_error("normal", "expected a texture of tangent-space normals")
         nodes += normal.nodes(0, is_normal=True)
         closure["normal"] = len(nodes) - 1
+    if (metal_of := given.pop("metal", None)) is not None:
+        closure["metal"] = metal_index(metal_of)
     closure["parameters"] = [(key, _input(key, value, nodes)) for key, value in given.items()]
     return {"origin": name, "closures": [closure], "graph": {"nodes": nodes}}
+
+
+def metal_index(of: Any) -> dict[str, Any]:
+    """A metal as descriptions have it."""
+    if isinstance(of, (str, PathLike)):
+        path = Path(of)
+        of = read_metal(path.read_bytes(), path.name) if path.is_file() else metal(str(of))
+    if not isinstance(of, Mapping):
+        raise _setting_error("metal", "expected a name, a file, or what `gonio.metal` gives")
+    return {key: of[key] for key in ("name", "wavelengths_nm", "n", "k") if key in of}
 
 
 def _input(name: str, value: Any, nodes: list[dict[str, Any]]) -> dict[str, Any]:

@@ -117,9 +117,9 @@ class Scene(_gonio.Scene):
         self.add_instance(box, [filled], transform=placed, name=name)
         return field
 
-    def add_material(self, name: str = "material", **parameters: float | bool | Sequence[float] | Texture) -> int:
-        """Adds a material: keyword arguments are surface parameters by their OpenPBR names, numbers, triples or textures, and `normal`, a texture
-        of tangent-space normals; gives its number."""
+    def add_material(self, name: str = "material", **parameters: float | bool | Sequence[float] | Texture | str | Mapping[str, Any]) -> int:
+        """Adds a material: keyword arguments are surface parameters by their OpenPBR names, numbers, triples or textures; `normal`, a texture of
+        tangent-space normals; `metal`, what it is made of: a name such as "gold", a file, or what `gonio.metal` gives. Gives its number."""
         return self.put_material(material(name, parameters))
 
     def add_curves(

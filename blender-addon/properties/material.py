@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Settings of materials that Blender itself has no place for."""
+
+import bpy
+from bpy.props import StringProperty
+
+from .tag import tag_data
+
+
+class GonioMaterialSettings(bpy.types.PropertyGroup):
+    metal: StringProperty(
+        name="Metal",
+        description="What metallic parts of the material are made of, in place of their colours: a name such as gold, Al, brass or Au-McPeak, or a file "
+        "of wavelengths, n and k",
+        subtype="FILE_PATH",
+        options={"PATH_SUPPORTS_BLEND_RELATIVE"},
+        update=tag_data,
+    )

@@ -1,0 +1,235 @@
+//! `gonio annual-glare`.
+
+use super::{
+    inputs::{self, year},
+    pictures, settings, tell_doubts,
+};
+use crate::{
+    arguments::AnnualGlareOptions,
+    file::{check_targets, print_path, put},
+    measure::{apply_settings, author_grids, triple, watched},
+    messages::{list, print},
+    progress::Reporter,
+    render::{MOST_WARNINGS, stage_options},
+    stage::Stage,
+};
+use gonio::{
+    Diagnostic, Error, Result,
+    annual::{AnnualTask, told},
+    annual_glare::{Eye, EyesTraced, trace_eyes},
+    measure::{GridPoints, glare::position_index},
+    scene::{Integrator, Origin, Scene},
+    sky::Frame,
+};
+use gonio_annual::{
+    Chunk, EyeGlare, GlareYear, Schedule, Year, evaluate,
+    sky::{Light, Quantity, SkyMatrix, SkyOptions},
+    to_npy,
+};
+use gonio_simd::Execution;
+use gonio_usd::{daylight::up_axis, meter::axes};
+use pyo3::prelude::*;
+use serde_json::{Value, json};
+use std::{
+    path::Path,
+    sync::atomic::{AtomicBool, Ordering},
+};
+
+/// The most eyes whose year is drawn each.
+const MOST_DRAWN: usize = 24;
+/// Metres from a grid's surface to eyes, where nothing says so: those of somebody who sits.
+const EYE_HEIGHT: f64 = 1.2;
+/// Share of the used time that EN 17037 lets a value be exceeded in.
+const EXCEEDED: f64 = 0.05;
+
+/// Traces the eyes and rates their year.
+pub(crate) fn annual_glare(py: Python<'_>, options: &AnnualGlareOptions, interrupted: &'static AtomicBool) -> Result<i32> {
+    let (year, schedule) = year(&options.year)?;
+    tell_doubts(&options.year, &year);
+    let stage_options = stage_options(&options.stage)?;
+    let stage = Stage::open(py, &options.stage.stage, &options.stage.state, &stage_options)?;
+    let mut grids = options.grids.clone();
+    grids.height = grids.height.or((!grids.grid.is_empty()).then_some(EYE_HEIGHT));
+    author_grids(py, &stage, &grids, None)?;
+    let mut loaded = stage.load(py, &stage_options, interrupted)?;
+    loaded.scene.grids.retain(|grid| grids.grid.iter().any(|prim| *prim == *grid.origin.name));
+    apply_settings(&mut loaded.scene, (options.spp, options.max_bounces), Integrator::Path, (&options.work, &options.textures));
+    let [up, ahead] = axes(loaded.info.up_axis);
+    let eyes = eyes(options, &loaded.scene, up, ahead)?;
+    let frame = Frame { up_axis: up_axis(loaded.info.up_axis), north_deg: options.year.north };
+    py.detach(|| {
+        let tell = |diagnostics: &[Diagnostic]| {
+            if !options.quiet {
+                list(diagnostics, if options.stage.verbose { usize::MAX } else { MOST_WARNINGS });
+            }
+        };
+        tell(&loaded.diagnostics);
+        if let Some(folder) = &options.year.output {
+            check_targets([folder.join("glare.npy"), folder.join("glare.csv")].iter())?;
+        }
+        let task = AnnualTask { year: &year, frame, factor: options.factor, blinds: None, closed: None };
+        let follow = |watch: &mut gonio::measure::Watch<'_>| trace_eyes(&loaded.scene, &eyes, &task, Execution::detect(), watch);
+        let traced = watched(Reporter::new(options.quiet), None, interrupted, follow)?;
+        tell(&traced.diagnostics);
+        let glare = rated(options, (&year, &schedule), traced, interrupted)?;
+        finish(options, (&year, &schedule), &eyes, &glare)
+    })
+}
+
+/// The eyes of the command line, and those over grids, which look around.
+fn eyes(options: &AnnualGlareOptions, scene: &Scene, up: [f64; 3], ahead: [f64; 3]) -> Result<Vec<Eye>> {
+    let facings = options.facing.iter().map(|text| triple("facing", text)).collect::<Result<Vec<_>>>()?;
+    let around = around(up, ahead, options.directions.unwrap_or(4));
+    let named = |position: [f64; 3], facing: &[f64; 3], name: String| Eye { origin: Origin::new(&name), position, facing: *facing };
+    let mut eyes = Vec::new();
+    for text in &options.eye {
+        let directions = if options.directions.is_none() && !facings.is_empty() { &facings } else { &around };
+        let position = triple("eye", text)?;
+        eyes.extend(
+            directions.iter().enumerate().map(|(number, facing)| named(position, facing, view_name(text, number, directions.len()))),
+        );
+    }
+    for grid in &scene.grids {
+        let points = GridPoints::new(scene, grid)?;
+        let directions = if options.directions.is_none() && !facings.is_empty() { &facings } else { &around };
+        for (place, position) in points.known().enumerate() {
+            let name = format!("{}/{}", grid.origin.name, place + 1);
+            eyes.extend(
+                directions.iter().enumerate().map(|(number, facing)| named(position, facing, view_name(&name, number, directions.len()))),
+            );
+        }
+    }
+    if eyes.is_empty() {
+        return Err(Error::setting("eye", "there is nobody who looks; name an eye with --eye X,Y,Z or a floor with --grid /Prim"));
+    }
+    Ok(eyes)
+}
+
+fn view_name(eye: &str, number: usize, count: usize) -> String {
+    if count > 1 { format!("{eye} ({} of {count})", number + 1) } else { eye.to_owned() }
+}
+
+/// Level directions, even around, the first one ahead.
+fn around(up: [f64; 3], ahead: [f64; 3], count: u32) -> Vec<[f64; 3]> {
+    let right = [ahead[1] * up[2] - ahead[2] * up[1], ahead[2] * up[0] - ahead[0] * up[2], ahead[0] * up[1] - ahead[1] * up[0]];
+    let direction = |number: u32| {
+        let (sin, cos) = (std::f64::consts::TAU * f64::from(number) / f64::from(count)).sin_cos();
+        std::array::from_fn(|axis| cos * ahead[axis] + sin * right[axis])
+    };
+    (0..count).map(direction).collect()
+}
+
+/// The year of all eyes.
+fn rated(
+    options: &AnnualGlareOptions,
+    (year, schedule): (&Year, &Schedule),
+    traced: EyesTraced,
+    interrupted: &AtomicBool,
+) -> Result<GlareYear> {
+    let settings = settings(&options.year, options.work.threads)?;
+    let alone =
+        SkyOptions { factor: options.factor, light: Light::WithoutSun, quantity: Quantity::Luminance, ..inputs::sky(&options.year)? };
+    let sky = SkyMatrix::new(year, alone).map_err(told)?;
+    let mut glare = GlareYear::new(traced.views, year.steps.len());
+    let mut take = |chunk: &Chunk<'_>| {
+        glare.take(chunk, &sky, schedule, (settings.threads, &position_index));
+        !interrupted.load(Ordering::Relaxed)
+    };
+    evaluate(year, schedule, &[traced.group], &settings, &mut take).map_err(told)?.ok_or(Error::Cancelled)?;
+    Ok(glare)
+}
+
+/// Tells and writes.
+fn finish(options: &AnnualGlareOptions, (year, schedule): (&Year, &Schedule), eyes: &[Eye], glare: &GlareYear) -> Result<i32> {
+    let figures = glare.glare(schedule);
+    if let Some(folder) = &options.year.output {
+        for path in written(folder, year, eyes, (glare, &figures))? {
+            if !options.year.json {
+                print_path(&path);
+            }
+        }
+    }
+    let fit =
+        |limit: fn(&EyeGlare) -> f64| figures.iter().filter(|(found, _)| limit(found) <= EXCEEDED).count() as f64 / figures.len() as f64;
+    let spatial = [("0.35", fit(|found| found.above_035)), ("0.40", fit(|found| found.above_040)), ("0.45", fit(|found| found.above_045))];
+    if options.year.json {
+        let eye = |(eye, (found, error)): (&Eye, &(EyeGlare, Option<EyeGlare>))| {
+            json!({
+                "name": &*eye.origin.name,
+                "position_m": eye.position,
+                "facing": eye.facing,
+                "glare": found,
+                "standard_errors": error,
+                "en17037": found.level(),
+            })
+        };
+        let shares: serde_json::Map<String, Value> = spatial.iter().map(|(limit, share)| ((*limit).to_owned(), json!(share))).collect();
+        let value = json!({
+            "weather": options.year.weather.to_string_lossy(),
+            "place": year.place,
+            "schedule": options.year.schedule,
+            "used_steps": schedule.count(),
+            "views": eyes.iter().zip(&figures).map(eye).collect::<Vec<_>>(),
+            "views_within_5_percent": shares,
+        });
+        print(&value.to_string());
+        return Ok(0);
+    }
+    eyes.iter().zip(&figures).for_each(|(eye, (found, error))| print(&line(eye, found, error.as_ref())));
+    if eyes.len() > 1 {
+        let told: Vec<String> = spatial.iter().map(|(limit, share)| format!("{:.0} % at {limit}", 100.0 * share)).collect();
+        print(&format!("views whose DGP is exceeded in no more than 5 % of the used time: {}", told.join(", ")));
+    }
+    Ok(0)
+}
+
+fn line(eye: &Eye, found: &EyeGlare, error: Option<&EyeGlare>) -> String {
+    let per_cent = |value: f64, error: Option<f64>| match error {
+        Some(error) => format!("{:.1} ± {:.1} %", 100.0 * value, 100.0 * error),
+        None => format!("{:.1} %", 100.0 * value),
+    };
+    let [x, y, z] = eye.facing;
+    let value = match error {
+        Some(error) => format!("{:.3} ± {:.3}", found.dgp_5_percent, error.dgp_5_percent),
+        None => format!("{:.3}", found.dgp_5_percent),
+    };
+    format!(
+        "{} towards {x:.2},{y:.2},{z:.2}: DGP {value} exceeded in 5 % of the used time; above 0.35 in {}, 0.40 in {}, 0.45 in {}; EN 17037: {}",
+        eye.origin.name,
+        per_cent(found.above_035, error.map(|error| error.above_035)),
+        per_cent(found.above_040, error.map(|error| error.above_040)),
+        per_cent(found.above_045, error.map(|error| error.above_045)),
+        found.level(),
+    )
+}
+
+/// Series, table, and the year of the first eyes as pictures.
+fn written(
+    folder: &Path,
+    year: &Year,
+    eyes: &[Eye],
+    (glare, figures): (&GlareYear, &[(EyeGlare, Option<EyeGlare>)]),
+) -> Result<Vec<std::path::PathBuf>> {
+    let [series, table] = ["glare.npy", "glare.csv"].map(|name| folder.join(name));
+
+    put(&series, &to_npy(eyes.len(), year.steps.len(), glare.all_values()))?;
+    let mut text = "view,x_m,y_m,z_m,facing_x,facing_y,facing_z,above_035,above_040,above_045,dgp_5_percent,en17037\n".to_owned();
+    for (eye, (found, _)) in eyes.iter().zip(figures) {
+        let [x, y, z] = eye.position;
+        let [fx, fy, fz] = eye.facing;
+        let EyeGlare { above_035, above_040, above_045, dgp_5_percent } = found;
+        text += &format!(
+            "\"{}\",{x},{y},{z},{fx},{fy},{fz},{above_035},{above_040},{above_045},{dgp_5_percent},{}\n",
+            eye.origin.name,
+            found.level()
+        );
+    }
+    put(&table, text.as_bytes())?;
+    let mut all = vec![series, table];
+    for eye in 0..eyes.len().min(MOST_DRAWN) {
+        let path = folder.join(format!("glare_{}.png", eye + 1));
+        pictures::glare_carpet(&path, year, glare.values(eye))?;
+        all.push(path);
+    }
+    Ok(all)
+}

@@ -1,0 +1,129 @@
+//! A year of daylight glare at eyes.
+
+use crate::{
+    annual::{measured, model, used_steps},
+    array::Array,
+    daylight::up_axis,
+    description,
+    error::exception,
+    scene::Scene,
+    watched::{unless, watched},
+};
+use gonio::{
+    Error,
+    annual::{AnnualTask, told},
+    annual_glare::{Eye, trace_eyes},
+    measure::{Watch, glare::position_index},
+    scene::Origin,
+    sky::Frame,
+};
+use gonio_annual::{
+    Chunk, EyeGlare, GlareYear, Settings, Year, evaluate,
+    sky::{Light, Quantity, SkyMatrix, SkyOptions},
+};
+use gonio_simd::Execution;
+use pyo3::prelude::*;
+use std::path::Path;
+
+/// A year of daylight glare at one eye.
+#[pyclass(frozen, module = "gonio")]
+pub(crate) struct AnnualGlareReading {
+    eye: Eye,
+    glare: EyeGlare,
+    errors: Option<EyeGlare>,
+    values: Vec<f32>,
+}
+
+#[pymethods]
+impl AnnualGlareReading {
+    /// Where the eye is, metres.
+    #[getter]
+    fn position(&self) -> [f64; 3] {
+        self.eye.position
+    }
+    /// Where it looks.
+    #[getter]
+    fn facing(&self) -> [f64; 3] {
+        self.eye.facing
+    }
+    /// above_035, above_040, above_045: shares of the used time with a DGP above that; dgp_5_percent: the value that is exceeded in 5 % of it.
+    #[getter]
+    fn figures<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        description::to_python(py, &self.glare)
+    }
+    /// Standard errors of the figures.
+    #[getter]
+    fn standard_errors<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        description::to_python(py, &self.errors)
+    }
+    /// What EN 17037 calls it: 'high', 'medium', 'minimum' or 'below the minimum'.
+    #[getter]
+    fn en17037(&self) -> &'static str {
+        self.glare.level()
+    }
+    /// DGP of every step of the weather file, 0 in the dark: (steps,).
+    #[getter]
+    fn values(&self) -> Array {
+        Array::flat(self.values.iter().copied().map(f64::from).collect())
+    }
+    fn __repr__(&self) -> String {
+        format!("<gonio.AnnualGlareReading: DGP {:.3} exceeded in 5 %, EN 17037 {}>", self.glare.dgp_5_percent, self.glare.level())
+    }
+}
+
+/// Rates daylight glare over a year for eyes, pairs of a position in metres and where they look, `samples` paths each: one reading an eye. Lamps are dark, sky
+/// and sun give way to the weather's; blinds are as the scene has them. The other arguments are those of `annual`.
+#[pyfunction]
+#[pyo3(signature = (scene, weather, eyes, *, samples = 8192, division = 4, schedule = None, sky = "perez", ground = 0.2, dew_point = None, up = "Z", north = 0.0, cancelled = None))]
+#[expect(clippy::too_many_arguments, reason = "keyword arguments")]
+pub(crate) fn annual_glare(
+    py: Python<'_>,
+    scene: &Scene,
+    weather: &[u8],
+    eyes: Vec<([f64; 3], [f64; 3])>,
+    samples: u32,
+    division: u32,
+    schedule: Option<&Bound<'_, PyAny>>,
+    sky: &str,
+    ground: f64,
+    dew_point: Option<f64>,
+    up: &str,
+    north: f64,
+    cancelled: Option<Py<PyAny>>,
+) -> PyResult<Vec<AnnualGlareReading>> {
+    let year = Year::read(Path::new("weather"), weather).map_err(|error| exception(told(error)))?;
+    let schedule = used_steps(schedule, &year)?;
+    let sky = SkyOptions { model: model(sky)?, ground, dew_point_c: dew_point, ..SkyOptions::default() };
+    let scene = measured(&scene.scene, samples);
+    let named = |(number, (position, facing)): (usize, ([f64; 3], [f64; 3]))| Eye {
+        origin: Origin::new(&format!("eye {}", number + 1)),
+        position,
+        facing,
+    };
+    let eyes: Vec<Eye> = eyes.into_iter().enumerate().map(named).collect();
+    let task =
+        AnnualTask { year: &year, frame: Frame { up_axis: up_axis(up)?, north_deg: north }, factor: division, blinds: None, closed: None };
+    let ask = |py: Python<'_>, _: &gonio::render::Progress| unless(py, cancelled.as_ref());
+    watched(py, ask, |stop, progress| {
+        if eyes.is_empty() {
+            return Ok(Vec::new());
+        }
+        let traced = trace_eyes(&scene, &eyes, &task, Execution::detect(), &mut Watch { previous: None, cancel: stop, progress })?;
+        let settings = Settings { sky, memory: crate::annual::MEMORY, threads: gonio::threads::available_threads() };
+        let alone = SkyMatrix::new(&year, SkyOptions { factor: division, light: Light::WithoutSun, quantity: Quantity::Luminance, ..sky })
+            .map_err(told)?;
+        let mut found = GlareYear::new(traced.views, year.steps.len());
+        let mut take = |chunk: &Chunk<'_>| {
+            found.take(chunk, &alone, &schedule, (settings.threads, &position_index));
+            true
+        };
+        evaluate(&year, &schedule, &[traced.group], &settings, &mut take).map_err(told)?.ok_or(Error::Cancelled)?;
+        let reading = |(number, (eye, (glare, errors))): (usize, (Eye, (EyeGlare, Option<EyeGlare>)))| AnnualGlareReading {
+            eye,
+            glare,
+            errors,
+            values: found.values(number).to_vec(),
+        };
+        Ok(eyes.iter().cloned().zip(found.glare(&schedule)).enumerate().map(reading).collect())
+    })
+}

@@ -1,0 +1,134 @@
+"""`gonio emergency`: closed forms of bare lamps, shadows, groups, glare, plans that are none, and the verdict on its figures."""
+
+import json
+import math
+
+import pytest
+
+LUMENS = 200.0
+HEIGHT = 2.5
+STAGE = """#usda 1.0
+(
+    upAxis = "Z"
+    metersPerUnit = 1
+)
+def Mesh "Floor"
+{
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]
+    point3f[] points = [(-2, -5, 0), (22, -5, 0), (22, 5, 0), (-2, 5, 0)]
+}
+LAMPS
+MORE
+"""
+LAMP = """def SphereLight "NAME"
+{
+    float inputs:radius = 0.01
+    double gonio:photometry:quantity = LUMENS
+    token gonio:photometry:unit = "lm"
+    token gonio:lightGroup = "GROUP"
+    double3 xformOp:translate = (X, 0, 2.5)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+"""
+ROUTE = '[[route]]\nname = "Corridor"\nline = [[0, 0, 0], [8, 0, 0]]\nwidth = 2\nspacing = 1\n'
+
+
+def lamp(name, x, group="Emergency", lumens=LUMENS):
+    return LAMP.replace("NAME", name).replace("GROUP", group).replace("LUMENS", str(lumens)).replace("(X,", f"({x},")
+
+
+def written(tmp_path, lamps, more="", plan=ROUTE):
+    (tmp_path / "stage.usda").write_text(STAGE.replace("LAMPS", lamps).replace("MORE", more))
+    (tmp_path / "plan.toml").write_text('groups = ["Emergency"]\nheight = 0\n' + plan)
+    return ["emergency", str(tmp_path / "stage.usda"), "--plan", str(tmp_path / "plan.toml"), "-q"]
+
+
+def figures(run, command):
+    done = run(*command, "--json")
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def straight(x, y=0.0, lamps=((0.0, LUMENS), (8.0, LUMENS))):
+    """E = I h / d³ of bare lamps."""
+    return sum(lumens / (4 * math.pi) * HEIGHT / ((x - at) ** 2 + y**2 + HEIGHT**2) ** 1.5 for at, lumens in lamps)
+
+
+def test_a_corridor_between_two_lamps(tmp_path, run):
+    command = written(tmp_path, lamp("A", 0) + lamp("B", 8) + lamp("Day", 4, "Mains", 9000))
+    found = figures(run, command)
+    (route,) = found["routes"]
+    centre = [straight(x) for x in range(9)]
+    assert [point["lx"] for point in route["centre"]["points"]] == pytest.approx(centre, rel=2e-3)
+    assert route["centre"]["min_lx"] == pytest.approx(min(centre), rel=2e-3)
+    assert route["centre"]["max_lx"] == pytest.approx(max(centre), rel=2e-3)
+    assert route["centre"]["max_to_min"] == pytest.approx(max(centre) / min(centre), rel=4e-3)
+    band = [straight(x, y) for x in range(9) for y in (0, 0.25, 0.5)]
+    assert route["band"]["min_lx"] == pytest.approx(min(band), rel=2e-3)
+    assert [lit["name"] for lit in found["luminaires"]] == ["/A", "/B"]
+    for lit in found["luminaires"]:
+        assert lit["peak_cd"] == pytest.approx(LUMENS / (4 * math.pi), rel=1e-3) and lit["height_m"] == pytest.approx(HEIGHT)
+
+
+def test_flux_and_maintenance_are_of_the_light_and_not_of_glare(tmp_path, run):
+    command = written(tmp_path, lamp("A", 0) + lamp("B", 8), plan="flux = 0.5\nmaintenance_factor = 0.8\n" + ROUTE)
+    found = figures(run, command)
+    assert found["factor"] == pytest.approx(0.4)
+    assert found["routes"][0]["centre"]["max_lx"] == pytest.approx(0.4 * straight(0), rel=2e-3)
+    assert found["luminaires"][0]["peak_cd"] == pytest.approx(LUMENS / (4 * math.pi), rel=1e-3)
+
+
+WALL = """def Mesh "Wall"
+{
+    uniform bool doubleSided = 1
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]
+    point3f[] points = [(4, -5, 0), (4, 5, 0), (4, 5, 4), (4, -5, 4)]
+}
+"""
+
+
+def test_walls_throw_shadows_and_give_nothing_back(tmp_path, run):
+    plan = '[[place]]\nname = "Before"\nposition = [2, 0, 0]\nfacing = [0, 0, 1]\n[[place]]\nname = "Behind"\nposition = [6, 0, 0]\nfacing = [0, 0, 1]\n'
+    command = written(tmp_path, lamp("A", 0), WALL, plan)
+    before, behind = figures(run, command)["places"]
+    assert before["lx"] == pytest.approx(straight(2, lamps=((0, LUMENS),)), rel=2e-3)
+    assert behind["lx"] == 0.0
+
+
+def test_an_area_and_its_words(tmp_path, run):
+    plan = '[[area]]\nname = "Hall"\noutline = [[0, -2, 0], [8, -2, 0], [8, 2, 0], [0, 2, 0]]\nspacing = 1\n'
+    command = written(tmp_path, lamp("A", 0) + lamp("B", 8), plan=plan)
+    (area,) = figures(run, command)["areas"]
+    points = [point["position_m"] for point in area["points"]]
+    assert len(points) == 8 * 4 and min(x for x, _, _ in points) == 0.5 and max(y for _, y, _ in points) == 1.5
+    assert area["min_lx"] == pytest.approx(min(straight(x, y) for x, y, _ in points), rel=3e-3)
+    text = run(*command).stdout
+    assert "open area Hall" in text and "greatest to least" in text and "/A: 16 cd, 2.50 m above the floor" in text
+
+
+def test_the_verdict_reads_it(tmp_path, run):
+    command = written(tmp_path, lamp("A", 0) + lamp("B", 8))
+    (tmp_path / "escape.json").write_text(run(*command, "--json").stdout)
+    required = '[[require]]\narea = "Corridor"\nquantity = "{}"\nof = "centre"\n{}\n'
+    texts = required.format("min", "at_least = 0.5") + required.format("max_to_min", "at_most = 40") + required.format("min", "at_least = 5")
+    (tmp_path / "required.toml").write_text(texts + '[[require]]\narea = "/A"\nquantity = "peak_cd"\nat_most = 500\n')
+    done = run("verdict", str(tmp_path / "required.toml"), str(tmp_path / "escape.json"), "--json")
+    assert done.returncode == 1
+    verdicts = [line["verdict"] for line in json.loads(done.stdout)["requirements"]]
+    assert verdicts == ["met", "met", "not_met", "met"]
+
+
+@pytest.mark.parametrize(
+    ("plan", "message"),
+    [
+        ("", "nothing to measure"),
+        ('[[route]]\nname = "r"\nlin = [[0, 0, 0]]\n', "plan.toml:5: unknown field `lin`"),
+        ('lights = ["/Nowhere"]\n' + ROUTE, "no light of the stage is at or under '/Nowhere'"),
+    ],
+)
+def test_what_is_no_plan_is_told(tmp_path, run, plan, message):
+    command = written(tmp_path, lamp("A", 0), plan=plan)
+    done = run(*command)
+    assert done.returncode == 1 and message in done.stderr
