@@ -11,15 +11,16 @@ from collections.abc import Iterator
 import numpy
 import pyluxcore
 from cornell import Diffuse, Glass, Mirror
-from description import Disk, Light, Mesh, Point, Rectangle, Scene, Sphere, Sun, Surface
+from description import Disk, Dispersing, Light, Mesh, Point, Rectangle, Scene, Sphere, Spot, Sun, Surface
 from shapes import ball
 
 # Of a ball that stands for a spherical lamp: beyond 256 triangles LuxCore no longer samples it.
 LAMP_SUBDIVISIONS = 2
-# Metres within which photons are looked up at first, and to which the radius shrinks: a fiftieth of what one sees, at most.
-PHOTON_RADII = 0.02, 0.002
-# Metres within which a photon must be near what the camera sees to be kept; by itself LuxCore looks for seconds for a good radius.
-VISIBILITY = 0.1
+# Metres within which photons are looked up at first: a fiftieth of what one sees, at most.
+PHOTON_RADIUS = 0.02
+# Of that radius: to which part it shrinks, and within how many a photon must be near what the camera sees to be kept; by itself LuxCore looks for
+# seconds for a good one.
+SHRUNK, VISIBILITY = 0.1, 5.0
 # Light paths of a cache, which is made anew every eight samples.
 PHOTONS = 500_000
 # Seconds between looks at the clock.
@@ -32,7 +33,9 @@ class Engine:
     is_timed = True
 
     def __init__(self, scene: Scene, threads: int, variant: str) -> None:
-        """`variant` is LuxCore's engine, with `photons` (caustics from a photon cache) or `hybrid` (caustics from light paths) after a plus."""
+        """`variant` is LuxCore's engine, after a plus `photons` or `hybrid` (caustics from a cache, from light paths), or `metropolis` (its sampler);
+        `photons@0.002` has another radius in metres.
+        """
         pyluxcore.Init()
         self.version = f"LuxCore {pyluxcore.Version()}"
         self._settings = settings(scene, threads, variant)
@@ -88,6 +91,10 @@ class Engine:
                 gain = [4.0 * math.pi * value for value in intensity]
                 parts = {"type": "point", "position": matrix[:3, 3].tolist(), "gain": gain}
                 self._scene.Parse(properties({f"scene.lights.{name}.{key}": value for key, value in parts.items()}))
+            case Spot(matrix, angle, 0.0, intensity):
+                parts = {"type": "spot", "position": matrix[:3, 3].tolist(), "target": (matrix[:3, 3] - matrix[:3, 2]).tolist()}
+                parts |= {"coneangle": 0.5 * angle, "conedeltaangle": 0.0, "gain": list(intensity)}
+                self._scene.Parse(properties({f"scene.lights.{name}.{key}": value for key, value in parts.items()}))
             case Sun(matrix, angle, radiance):
                 parts = {"type": "distant", "direction": (-matrix[:3, 2]).tolist(), "theta": 0.5 * angle, "gain": list(radiance)}
                 self._scene.Parse(properties({f"scene.lights.{name}.{key}": value for key, value in parts.items()}))
@@ -117,6 +124,7 @@ def properties(values: dict[str, object]) -> pyluxcore.Properties:
 def settings(scene: Scene, threads: int, variant: str) -> dict[str, object]:
     """How it renders: nothing clamped, a box filter one pixel wide."""
     engine, _, extra = variant.partition("+")
+    extra, _, radius = extra.partition("@")
     depth = scene.bounces + 1
     made: dict[str, object] = {"renderengine.type": engine, "native.threads.count": threads}
     made |= {"sampler.type": "SOBOL", "sampler.sobol.adaptive.strength": 0.0, "film.width": scene.width, "film.height": scene.height}
@@ -125,11 +133,14 @@ def settings(scene: Scene, threads: int, variant: str) -> dict[str, object]:
     made |= {"path.maxdepth": depth, "light.maxdepth": depth, "path.clamping.variance.maxvalue": 0.0}
     match extra:
         case "photons":
+            around = float(radius or PHOTON_RADIUS)
             made |= {"path.photongi.caustic.enabled": True, "path.photongi.photon.maxdepth": depth}
-            made |= {"path.photongi.caustic.lookup.radius": PHOTON_RADII[0], "path.photongi.caustic.updatespp.minradius": PHOTON_RADII[1]}
+            made |= {"path.photongi.caustic.lookup.radius": around, "path.photongi.caustic.updatespp.minradius": SHRUNK * around}
             # Less than its own choice, which takes longer than a whole picture here.
             made |= {"path.photongi.photon.maxcount": PHOTONS, "path.photongi.visibility.maxsamplecount": PHOTONS // 8}
-            made |= {"path.photongi.visibility.lookup.radius": VISIBILITY}
+            made |= {"path.photongi.visibility.lookup.radius": VISIBILITY * around}
+        case "metropolis":
+            made |= {"sampler.type": "METROPOLIS"}
         case "hybrid":
             made |= {"path.hybridbackforward.enable": True}
     return made
@@ -155,6 +166,10 @@ def material(surface: Surface) -> dict[str, object]:
             return {"type": "mirror", "kr": [reflectance] * 3}
         case Glass(ior):
             return {"type": "glass", "kr": [1.0] * 3, "kt": [1.0] * 3, "interiorior": ior, "exteriorior": 1.0}
+        case Dispersing():
+            # Its stated index is the A of Cauchy's formula, whatever the wavelength; B is in µm².
+            a, b = surface.cauchy()
+            return {"type": "glass", "kr": [1.0] * 3, "kt": [1.0] * 3, "interiorior": a, "cauchyb": b, "exteriorior": 1.0}
     raise NotImplementedError(surface)
 
 

@@ -23,7 +23,24 @@ class Textured:
     image: numpy.ndarray
 
 
-Surface = Diffuse | Mirror | Glass | Principled | Textured
+# Wavelengths of the lines d, F and C in µm, by which indices and Abbe numbers are stated.
+D_LINE, F_LINE, C_LINE = 0.58756, 0.48613, 0.65627
+
+
+@dataclass(frozen=True)
+class Dispersing:
+    """Clear glass by its index at the line d and its Abbe number."""
+
+    ior: float
+    abbe: float
+
+    def cauchy(self) -> tuple[float, float]:
+        """A and B in µm² of the index A + B / λ² that both figures leave."""
+        b = (self.ior - 1.0) / self.abbe / (F_LINE**-2 - C_LINE**-2)
+        return self.ior - b * D_LINE**-2, b
+
+
+Surface = Diffuse | Mirror | Glass | Dispersing | Principled | Textured
 
 
 @dataclass(frozen=True)
@@ -137,5 +154,5 @@ def described(name: str) -> Scene:
 
 def without_casters(scene: Scene) -> Scene:
     """The same without glass and mirrors and without further bounces."""
-    meshes = [mesh for mesh in scene.meshes if not isinstance(mesh.surface, Glass | Mirror)]
+    meshes = [mesh for mesh in scene.meshes if not isinstance(mesh.surface, Glass | Dispersing | Mirror)]
     return dataclasses.replace(scene, meshes=meshes, bounces=0)
