@@ -161,7 +161,7 @@ bench-peers: build $(CURDIR)/.venv-bpy50/ready
 
 # Error at equal time on six scenes full of caustics, beside Cycles, LuxCore and Mitsuba, in out/peers/caustics; needs what bench-peers needs.
 # References that are missing are made first, in minutes each. CAUSTICS="pool --seconds 20" chooses; GONIO_CAUSTICS="name=value,..." has
-# the settings of gonio with light paths.
+# the settings of gonio with light paths. A rainbow beside LuxCore: out/peers/prism.md.
 bench-caustics: export DRJIT_LIBLLVM_PATH ?= /usr/lib/x86_64-linux-gnu/libLLVM.so.19.1
 bench-caustics: build $(CURDIR)/.venv-bpy50/ready
 	$(BIN)/python tests/validate/environments.py mitsuba luxcore
@@ -169,6 +169,7 @@ bench-caustics: build $(CURDIR)/.venv-bpy50/ready
 	$(BIN)/python tests/peers/caustics/direct.py --seconds 20
 	$(BIN)/python tests/peers/caustics/bench.py $(CAUSTICS)
 	$(CURDIR)/.venv-mitsuba/bin/python tests/peers/caustics/rays.py
+	$(BIN)/python tests/peers/spectral/prism_bench.py
 
 DOCS := $(CURDIR)/.venv-docs
 $(DOCS)/ready:
