@@ -10,7 +10,7 @@ import argparse
 import os
 import sys
 from pathlib import Path
-from statistics import median
+from statistics import mean, median
 
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), *(str(HERE.parent / other) for other in ("caustics", "render")), str(HERE.parents[1] / "validate")]
@@ -71,7 +71,7 @@ def held(name: str, entrants: list[str], asked: argparse.Namespace) -> list[str]
                 pair = [peer.render(2 * seed + half) for half in (0, 1)]
             pictures = [picture.values for picture in pair]
             noise = on_screen.noise(pictures, bins[entrant.partition(":")[0]], on_screen.view(scene))
-            spent = [numpy.mean([picture.seconds for picture in pair]), numpy.mean([picture.processor for picture in pair])]
+            spent = [mean(picture.seconds for picture in pair), mean(picture.processor for picture in pair)]
             figures.append([*spent, noise.variance, noise.variance * spent[1], noise.error, noise.squares])
             print(name, entrant, *(f"{figure:.4g}" for figure in figures[-1]), file=sys.stderr, flush=True)
             write(OUT / f"prism-{name}-{entrant.replace(':', '-')}.png", 0.5 * (pictures[0] + pictures[1]))
