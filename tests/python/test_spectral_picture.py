@@ -136,3 +136,29 @@ def test_what_knows_no_wavelengths_is_refused():
 def test_it_can_be_cancelled():
     with pytest.raises(gonio.Cancelled):
         gonio.spectral_picture(lit((0.5,) * 3, "A", size=256, samples=4096), cancelled=lambda: True)
+
+
+def test_glass_bends_every_wavelength_of_a_band():
+    """A thin bright strip through a prism: a band of 20 nm shows what its four bands of 5 nm do, no single line."""
+    index, apex = 1.6, math.radians(60)
+    lean = math.asin(index * math.sin(apex / 2)) - apex / 2
+    made = gonio.Scene()
+    side, top = 0.1 * math.tan(apex / 2), 0.1
+    section = [(-side, 0.0), (side, 0.0), (0.0, top)]
+    points = np.array([(x, y, z) for y in (-0.2, 0.2) for x, z in section], np.float32)
+    faces = np.array([(0, 2, 1), (3, 4, 5), (0, 1, 4), (0, 4, 3), (1, 2, 5), (1, 5, 4), (2, 0, 3), (2, 3, 5)], np.int32)
+    glass = made.add_material(transmission_weight=1.0, specular_roughness=0.0, specular_ior=index, transmission_dispersion=1 / 20)
+    made.add_instance(made.add_mesh(points, faces), [glass])
+    shine = made.add_material(emission_color=(1.0, 1.0, 1.0), base_color=(0.0, 0.0, 0.0), specular_weight=0.0)
+    far, middle = 3.0, 0.05
+    strip = np.array([(far * math.cos(lean), y, middle - far * math.sin(lean) + z) for y, z in ((-1, 0), (1, 0), (1, 0.004), (-1, 0.004))], np.float32)
+    made.add_instance(made.add_mesh(strip, CORNERS), [shine])
+    eye = np.array((-0.5 * math.cos(lean), 0.0, middle - 0.5 * math.sin(lean)))
+    made.add_camera(gonio.look_at(eye, (0.0, 0.0, middle), up=(0.0, 0.0, 1.0)), fov=12.0)
+    made.set(width=16, height=96, samples=512, spectral=True, caustics="off")
+    rows = {band: np.asarray(gonio.spectral_picture(made, band=band).radiance).mean(axis=1) for band in (5.0, 20.0)}
+    fine = rows[5.0].reshape(96, -1, 4).mean(axis=2)
+    lit = rows[20.0].sum(axis=0) > 0
+    assert lit.sum() >= 15
+    # Single lines would differ by nearly twice their light.
+    assert np.abs(rows[20.0] - fine).sum() < 0.3 * fine.sum()

@@ -10,6 +10,9 @@ use crate::{
 use gonio_spectrum::Bands;
 use std::sync::Arc;
 
+/// Wavelengths of a band where glass bends each its own way; of one alone a prism would show a slit once a band.
+const BENT: usize = 31;
+
 /// A scene that was compiled for light with wavelengths.
 #[derive(Debug)]
 pub(crate) struct BandedScene {
@@ -46,7 +49,9 @@ impl BandedScene {
     pub(crate) fn at(&mut self, band: usize) -> Result<&Arc<CompiledScene>> {
         let busy = || Error::Internal("the scene of one band of wavelengths is in use while the next is asked for".to_owned());
         let scene = Arc::get_mut(&mut self.scene).ok_or_else(busy)?;
-        scene.tables.wavelengths = Some(Arc::new(scene.spectra.table_of_band(self.bands, band, &self.lamps, &scene.metals)));
+        let count = if scene.tables.materials.surfaces.iter().any(|surface| surface.surface.lobes.disperses) { BENT } else { 1 };
+        let table = scene.spectra.table_of_band((self.bands, band), &self.lamps, &scene.metals, count);
+        scene.tables.wavelengths = Some(Arc::new(table));
         scene.tables.materials.media = self.media.seen(|colour| [self.bands.of_colour(band, colour); 3]);
         Ok(&self.scene)
     }

@@ -6,7 +6,7 @@ use crate::{
     error::Diagnostic,
     scene::{Closure, Input, Material, MetalIndex, Model, Scene},
 };
-use gonio_spectrum::{Bands, triples};
+use gonio_spectrum::triples;
 use std::sync::Arc;
 
 /// The metals of a scene, each once however many materials are of it.
@@ -77,9 +77,10 @@ impl Metals {
         self.0.iter().flat_map(|metal| &metal.values).copied().flat_map(quads).collect()
     }
 
-    /// By metal: quads of n and of k in the middle of a band.
-    pub(super) fn by_band(&self, bands: &Bands, band: usize) -> Vec<f32> {
-        self.0.iter().flat_map(|metal| quads(metal.index.at(bands.centre(band)).map(|part| [part as f32; 3]))).collect()
+    /// By metal and wavelength in nm: quads of n and of k, all components the same.
+    pub(super) fn at(&self, wavelengths_nm: &[f64]) -> Vec<f32> {
+        let of = |metal: &CompiledMetal, nm: f64| quads(metal.index.at(nm).map(|part| [part as f32; 3]));
+        self.0.iter().flat_map(|metal| wavelengths_nm.iter().flat_map(move |nm| of(metal, *nm))).collect()
     }
 }
 

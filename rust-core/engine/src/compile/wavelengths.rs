@@ -104,18 +104,26 @@ impl LampSpectra {
         Some(Arc::new(table))
     }
 
-    /// The table of a single wavelength, in the middle of a band. All three components stand there, and each brings a third of what is seen: the
-    /// light of the band as a grey, relative to D65's. `lamps` is [`Self::by_band`].
-    pub(super) fn table_of_band(&self, bands: &Bands, band: usize, lamps: &[Vec<f32>], metals: &Metals) -> WavelengthTable {
-        let place = ((bands.centre(band) - 380.0) / 400.0) as f32;
-        let lamps: Vec<f32> = lamps.iter().flat_map(|lamp| quad([lamp[band]; 3])).collect();
+    /// The table of a band, by so many wavelengths even over it, one of which is its middle where they are odd in number. All three components of a path
+    /// stand at one of them, and each brings a third of what is seen: the light of the band as a grey, relative to D65's. `lamps` is [`Self::by_band`].
+    pub(super) fn table_of_band(
+        &self,
+        (bands, band): (&Bands, usize),
+        lamps: &[Vec<f32>],
+        metals: &Metals,
+        count: usize,
+    ) -> WavelengthTable {
+        let part = |number: usize| (number as f64 + 0.5) / count as f64 - 0.5;
+        let wavelengths: Vec<f64> = (0..count).map(|number| bands.centre(band) + part(number) * bands.width_nm()).collect();
+        let places: Vec<f32> = wavelengths.iter().flat_map(|nm| quad([((nm - 380.0) / 400.0) as f32; 3])).collect();
+        let lamps: Vec<f32> = lamps.iter().flat_map(|lamp| quad([lamp[band]; 3]).repeat(count)).collect();
         WavelengthTable {
-            rotations: 1,
-            places: column(&quad([place; 3])),
-            film: column(&[quad([1.0 / 3.0; 3]); 3].concat()),
+            rotations: count as u32,
+            places: column(&places),
+            film: column(&quad([1.0 / 3.0; 3]).repeat(3 * count)),
             lamps: column(&lamps),
             lamp_colours: self.colours(),
-            metals: column(&metals.by_band(bands, band)),
+            metals: column(&metals.at(&wavelengths)),
             ..(**without_lamps()).clone()
         }
     }
