@@ -27,6 +27,8 @@ const SEED: u32 = 0;
 const LEAST_NOISE: f64 = 100.0;
 /// Least part of all light that lights without size send on, which is lost where no light path brings it.
 const LEAST_LOST: f64 = 0.02;
+/// The same that is told where light paths do not run for it.
+const LEAST_TOLD: f64 = 1e-3;
 /// A light that sends most of what it lights by mirrors and glass decides for itself from this part of all light on.
 const LEAST_SHARE: f64 = 1e-3;
 /// Texels of a dome that its mean is taken of.
@@ -98,6 +100,10 @@ pub(super) fn decide(compiled: &mut CompiledScene, scene: &Scene, of_light: &[u3
             if let Some(origin) = light.or(compiled.casters.first.as_ref()) {
                 compiled.diagnostics.push(Diagnostic::info(origin, message(part)));
             }
+        } else if found.lost >= LEAST_TOLD
+            && let Some(origin) = &compiled.casters.first
+        {
+            compiled.diagnostics.push(Diagnostic::warning(origin, lost(found.lost)));
         }
     }
     let traced = match scene.settings.caustics {
@@ -132,6 +138,14 @@ fn is_measured(compiled: &CompiledScene, scene: &Scene, cancel: &AtomicBool) -> 
 fn message(part: f64) -> String {
     let part = if part < 0.01 { "some".to_owned() } else { format!("{:.0} %", 100.0 * part) };
     format!("mirrors and clear glass send on {part} of its light, which camera paths seldom find; light paths bring it (caustics)")
+}
+
+fn lost(part: f64) -> String {
+    let part = 100.0 * part;
+    format!(
+        "mirrors and clear glass such as this send on {part:.2} % of the light, from lamps without extent, which no camera path finds: pictures leave it out; \
+         with caustics 'on' light paths bring it"
+    )
 }
 
 /// What a few light paths bring, light by light, and what of all of them leaves the scene.
