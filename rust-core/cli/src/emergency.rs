@@ -59,7 +59,7 @@ pub(super) fn emergency(py: Python<'_>, options: &EmergencyOptions, interrupted:
 
 fn meter(spot: &Spot) -> Meter {
     let [x, y, z] = spot.position;
-    Meter { origin: Origin::new(&format!("{x:.3},{y:.3},{z:.3}")), position: spot.position, normal: spot.normal, ..Meter::default() }
+    Meter { origin: Origin::new(format!("{x:.3},{y:.3},{z:.3}")), position: spot.position, normal: spot.normal, ..Meter::default() }
 }
 
 /// Leaves the plan's lights alone burning and gives their numbers.

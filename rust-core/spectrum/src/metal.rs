@@ -176,7 +176,7 @@ pub fn metal(name: &str) -> Option<MetalIndex> {
     let asked = plain(name);
     let symbol = WORDS.iter().find(|(word, _)| *word == asked).map_or(asked.clone(), |(_, symbol)| plain(symbol));
     let is_meant = |set: &&str| plain(set) == asked || set.split('-').next().is_some_and(|of| plain(of) == symbol);
-    let place = SETS.names.iter().position(|set| is_meant(&set))?;
+    let place = SETS.names.iter().position(is_meant)?;
     let (wavelengths, n) = SETS.column(place);
     let (_, k) = SETS.column(place + 1);
     MetalIndex::new(SETS.names[place], wavelengths, n.to_vec(), k.to_vec()).ok()
