@@ -57,6 +57,13 @@ def under_lamp(x, y, height=2.0):
     return INTENSITY * height / (x * x + y * y + height * height) ** 1.5
 
 
+@pytest.mark.parametrize("purpose", ["guide", "proxy"])
+def test_what_is_not_shown_is_measured_on(run, stage, purpose):
+    path = stage(f'uniform token purpose = "{purpose}"\n    double gonio:grid:spacing = 200')
+    (grid,) = measured(run, path, "--spp", "256")["grids"]
+    assert grid["average"]["value"] == pytest.approx(under_lamp(1, 1), rel=0.01)
+
+
 def test_a_grid_on_a_prim_of_the_command_line(run, stage, tmp_path):
     table, picture = tmp_path / "plane.csv", tmp_path / "plane.png"
     arguments = ("--grid", "/Floor", "--spacing", 0.5, "--margin", 0.5, "--height", 1.0, "--integrator", "direct", "--spp", 256)

@@ -168,12 +168,13 @@ impl<'py> Placer<'_, '_, 'py> {
             let purpose = element.purpose.or(placement.purpose);
             match &element.kind {
                 Kind::Group(group) => self.group(element, group, purpose, placement)?,
+                // What is measured on need not be shown.
+                Kind::Measured(mesh) => self.meters(element, *mesh, placement),
                 _ if !self.context.options.shows(purpose.unwrap_or_default()) => {}
                 Kind::Shape(shape) => self.shape(element, shape, placement)?,
                 Kind::Volume(volume) => self.volume(element, volume, placement),
                 Kind::Light => self.lights(element, placement),
                 Kind::Camera => self.cameras(element, placement),
-                Kind::Measured(mesh) => self.meters(element, *mesh, placement),
             }
         }
         Ok(())
