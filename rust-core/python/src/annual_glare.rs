@@ -96,7 +96,7 @@ pub(crate) fn annual_glare(
     let sky = SkyOptions { model: model(sky)?, ground, dew_point_c: dew_point, ..SkyOptions::default() };
     let scene = measured(&scene.scene, samples);
     let named = |(number, (position, facing)): (usize, ([f64; 3], [f64; 3]))| Eye {
-        origin: Origin::new(&format!("eye {}", number + 1)),
+        origin: Origin::new(format!("eye {}", number + 1)),
         position,
         facing,
     };

@@ -99,8 +99,8 @@ fn carpet(year: &Year, means: &[f32], scale: FalseColourScale, unit: &str) -> Ca
     let pixels: Vec<f32> = (0..size[0] * size[1]).map(value).collect();
     let style = FalseColour { scale, unit: unit.into(), contours: false, smoothing: 0, legend: true };
     let mut canvas = style.draw(&pixels, size);
-    canvas.shade([0, 0], [MARGIN[0], size[1]], PAPER);
-    canvas.shade([0, inner[1]], [size[0], MARGIN[1]], PAPER);
+    canvas.fill([0, 0], [MARGIN[0], size[1]], PAPER);
+    canvas.fill([0, inner[1]], [size[0], MARGIN[1]], PAPER);
     for hour in [0, 6, 12, 18, 24] {
         let text = hour.to_string();
         let [width, height] = Canvas::text_size(&text, LETTERS);
@@ -108,8 +108,8 @@ fn carpet(year: &Year, means: &[f32], scale: FalseColourScale, unit: &str) -> Ca
         canvas.write(&text, [MARGIN[0] - 6 - width, middle - height / 2], LETTERS, INK);
     }
     let starts = (0..days).filter(|day| year.steps[day * of_day].day == 1);
-    for (day, name) in starts.zip(["Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"]) {
-        canvas.write(name, [MARGIN[0] + day * DAY + 4, inner[1] + 6], LETTERS, INK);
+    for (day, month) in starts.zip(1..=12) {
+        canvas.write(&month.to_string(), [MARGIN[0] + day * DAY + 4, inner[1] + 6], LETTERS, INK);
     }
     canvas
 }
