@@ -138,7 +138,7 @@ mod tests {
             draw(text, 40.0, |x, y, share| found.push((x, y, (share * 100.0) as u32)));
             found
         };
-        let all = "0123456789.-/%²lxcdme";
+        let all = "0123456789.-/%²lxcdmehKDGP";
         for (number, letter) in all.chars().enumerate() {
             let text = letter.to_string();
             let found = ink(&text);
