@@ -50,7 +50,7 @@ def sky_texture(t, node, context, output):
     """The node's value in worlds and on surfaces; on lamps its stand-in."""
     if not t.is_world and t.kind != "Material":
         return None
-    towards = coordinates(t, node, context, direction(t) if t.is_world else t.primvar(GENERATED))
+    towards = coordinates(t, node, context, lambda: direction(t) if t.is_world else t.primvar(GENERATED))
     if not t.is_world:
         return _on_surface(t, node, context, towards)
     picture, azimuth = _drawn(node)

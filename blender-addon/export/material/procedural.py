@@ -25,7 +25,7 @@ NEW_CELLS = (5, 0, 0)
 
 
 def _place(t, node, context):
-    return coordinates(t, node, context, direction(t) if t.is_world else t.primvar(GENERATED))
+    return coordinates(t, node, context, lambda: direction(t) if t.is_world else t.primvar(GENERATED))
 
 
 def _inputs(t, node, context, names):

@@ -42,9 +42,9 @@ def _is_even(t, node, context, place):
     return all(t.socket(socket, context).is_constant for socket in node.inputs if socket.enabled and socket != place)
 
 
-def coordinates(t, node, context, default):
-    """The vector input, or the default coordinates, through the node's own mapping."""
-    value = t.input(node, "Vector", context) if _is_placed(t, node, context) else default
+def coordinates(t, node, context, usual):
+    """The vector input, or where nothing is linked what `usual` gives, through the node's own mapping. A mesh is asked for no more than that."""
+    value = t.input(node, "Vector", context) if _is_placed(t, node, context) else usual()
     legacy = node.texture_mapping
     scale = tuple(legacy.scale)
     if legacy.vector_type == "POINT" and not any(legacy.translation) and not any(legacy.rotation) and scale == (1.0, 1.0, 1.0):
@@ -54,7 +54,7 @@ def coordinates(t, node, context, default):
 
 @value_node("ShaderNodeTexImage")
 def image_texture(t, node, context, output):
-    place = coordinates(t, node, context, direction(t) if t.is_world else t.primvar(UV))
+    place = coordinates(t, node, context, lambda: direction(t) if t.is_world else t.primvar(UV))
     if node.projection == "BOX":
         sides = box_projection(t, place, node.projection_blend)
         texels = [_texel(t, node, context, output, uv) * weight for uv, weight in sides]
@@ -163,7 +163,7 @@ def _wrapped_around(t, value, projection):
 
 @value_node("ShaderNodeTexEnvironment")
 def environment_texture(t, node, context, output):
-    towards = coordinates(t, node, context, direction(t) if t.is_world else hit(t, "Position"))
+    towards = coordinates(t, node, context, lambda: direction(t) if t.is_world else hit(t, "Position"))
     if t.is_world and node.image is not None:
         return t.environment(node, context, towards)
     if node.projection == "MIRROR_BALL":
@@ -188,7 +188,7 @@ def mirror_ball(t, towards):
 
 @value_node("ShaderNodeTexChecker")
 def checker(t, node, context, output):
-    place = coordinates(t, node, context, direction(t) if t.is_world else t.primvar(GENERATED)) * t.input(node, "Scale", context)
+    place = coordinates(t, node, context, lambda: direction(t) if t.is_world else t.primvar(GENERATED)) * t.input(node, "Scale", context)
     # Blender's own nudge, which keeps faces that lie on a border in one colour.
     cell = ((place + 1e-6) * 0.999999).floor()
     odd = (cell.dot((1.0, 1.0, 1.0)) * 0.5).fraction() * 2.0
@@ -200,7 +200,7 @@ def checker(t, node, context, output):
 
 @value_node("ShaderNodeTexGradient")
 def gradient(t, node, context, output):
-    place = coordinates(t, node, context, direction(t) if t.is_world else t.primvar(GENERATED))
+    place = coordinates(t, node, context, lambda: direction(t) if t.is_world else t.primvar(GENERATED))
     x, y = place.component(0), place.component(1)
     inside = (1.0 - place.length()).maximum(0.0)
     ramp = x.clamp()

@@ -2,6 +2,7 @@
 """From one Blender node tree to graph values."""
 
 import sys
+import weakref
 from contextlib import contextmanager
 
 import bpy
@@ -64,7 +65,8 @@ class Translator:
         self.is_world, self.is_camera_ray, self.asked_for_ray = is_world, is_camera_ray, False
         self.graph = Graph()
         self.root = Context(tree)
-        self.root.translator = self
+        # Weakly: in a circle with its tree it would keep the scene, with all its meshes, until Python looks for circles.
+        self.root.translator = weakref.proxy(self)
         self.primvars, self.instance_primvars = set(), set()
         self.closures = []
         # How many outputs were computed, and how many ways led to shaders.
