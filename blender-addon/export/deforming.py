@@ -9,6 +9,7 @@ from .material.inputs import PARAMETRIC, TRIANGLE
 from .mesh import mesh_arguments
 from .mesh_values import apart
 from .modelled_normals import modelled
+from .passing import passing
 
 # The attribute of points that says where they go, metres a second.
 VELOCITY = "velocity"
@@ -62,12 +63,17 @@ def _form(arguments):
 
 def form_of(group):
     """The form of a group's mesh; None for one without faces."""
-    return _form(mesh_arguments(group.data, frozenset(), modelled(group)))
+    return _form(_arguments(group, frozenset()))
+
+
+def _arguments(group, primvars):
+    with passing(group) as mesh:
+        return mesh_arguments(mesh, primvars, modelled(group))
 
 
 def forms_by_velocities(group, seconds):
     """The forms of a group's mesh so many seconds after the frame, its points going straight on; none for one without faces."""
-    arguments = mesh_arguments(group.data, frozenset({VELOCITY}), modelled(group))
+    arguments = _arguments(group, frozenset({VELOCITY}))
     if arguments is None:
         return []
     rest, velocities = _form(arguments), np.nan_to_num(arguments["primvars"][VELOCITY], posinf=0.0, neginf=0.0)
@@ -77,13 +83,13 @@ def forms_by_velocities(group, seconds):
 def with_motion(group, primvars, forms):
     """The arguments of `put_mesh` for a group with its forms at even times, and whether its faces are others at other times; None where
     nothing changes."""
-    plain = mesh_arguments(group.data, frozenset(), modelled(group))
+    plain = _arguments(group, frozenset())
     rest = _form(plain)
     if rest is None or any(form is None or not rest.is_like(form) for form in forms):
         return None, rest is not None
     if all(np.array_equal(form.points, forms[0].points) for form in forms):
         return None, False
-    arguments, forms = mesh_arguments(group.data, primvars, modelled(group)), [_laid_out(plain, form, primvars) for form in forms]
+    arguments, forms = _arguments(group, primvars), [_laid_out(plain, form, primvars) for form in forms]
     arguments["motion"] = np.concatenate([form["points"] for form in forms])
     rest, normals = arguments["normals"], [form["normals"] for form in forms]
     if rest is not None and all(one is not None and one.shape == rest.shape for one in normals):

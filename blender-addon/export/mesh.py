@@ -6,7 +6,7 @@ import ctypes
 import numpy as np
 
 from .material.inputs import PARAMETRIC, SMOOTH_NORMAL, TANGENT, TRIANGLE, UV
-from .mesh_attributes import ATTRIBUTES, active_uv, read, spread_out, vertex_normals, wanted
+from .mesh_attributes import active_uv, spread_out, vertex_normals, wanted
 from .mesh_values import PARAMETRIC_CORNERS, apart, corner_points
 from .modelled_normals import modelled_normals
 from .tangents import tangents
@@ -19,36 +19,23 @@ TRIANGLE_BYTES = 12
 MANY_TRIANGLES = 5000
 
 
-def fingerprint(mesh):
-    """A number that differs for meshes that differ: over positions, corners and every attribute."""
-    parts = [len(mesh.vertices), len(mesh.polygons)]
-    for attribute in mesh.attributes:
-        if attribute.data_type in ATTRIBUTES and attribute.data_type != "BYTE_COLOR" and not attribute.name.startswith(".select"):
-            values = read(attribute)
-            parts.append((attribute.name, attribute.domain, hash(values.tobytes())))
-        else:
-            parts.append((attribute.name, attribute.domain, attribute.data_type, len(attribute.data)))
-    # Which triangle belongs to which face says where faces begin.
-    mesh.calc_loop_triangles()
-    faces = np.empty(len(mesh.loop_triangles), dtype=np.int32)
-    mesh.loop_triangle_polygons.foreach_get("value", faces)
-    parts += [hash(faces.tobytes()), mesh.normals_domain, active_uv(mesh), tuple(mesh.texspace_location), tuple(mesh.texspace_size)]
-    return hash(tuple(parts))
-
-
 def mesh_arguments(mesh, primvars, cut=None):
     """The arguments of `put_mesh` with the named values that materials want; None for a mesh without faces. A mesh that was cut of faces has
     their normals: `cut` says which (`modelled`)."""
-    mesh.calc_loop_triangles()
-    count = len(mesh.loop_triangles)
+    are_triangles = len(mesh.loops) == 3 * len(mesh.polygons)
+    if not are_triangles:
+        mesh.calc_loop_triangles()
+    # Blender would keep the triangles, which are the faces.
+    count = len(mesh.polygons) if are_triangles else len(mesh.loop_triangles)
     if count == 0:
         return None
     points = np.empty((len(mesh.vertices), 3), dtype=np.float32)
     mesh.attributes["position"].data.foreach_get("vector", points.reshape(-1))
     corners = np.empty(len(mesh.loops), dtype=np.int32)
     mesh.attributes[".corner_vert"].data.foreach_get("value", corners)
-    faces = np.empty(count, dtype=np.int32)
-    mesh.loop_triangle_polygons.foreach_get("value", faces)
+    faces = np.arange(count, dtype=np.int32)
+    if not are_triangles:
+        mesh.loop_triangle_polygons.foreach_get("value", faces)
     # The scene tells points from corners by their number: where both are as many, each corner gets a point of its own.
     spread = corners if len(points) == len(corners) else None
     arguments = {
@@ -101,6 +88,14 @@ def _with_triangles_own(arguments, names):
     return arguments
 
 
+def compact(arguments):
+    """The arguments with as little as says the same: of triangles that are the faces, corners are points in their order."""
+    corners, triangles = arguments["corners"], arguments["triangles"]
+    if corners is None or len(corners) != triangles.size:
+        return arguments
+    return {**arguments, "triangles": corners.reshape(-1, 3), "corners": None, "faces": None}
+
+
 def triangle_loops(mesh):
     """Corner numbers of each triangle (T, 3) of a mesh whose triangles were computed."""
     return _triangles(mesh, len(mesh.loop_triangles))
@@ -142,7 +137,8 @@ def _normals(mesh, spread, points, corners, faces):
         normals = np.empty((len(mesh.loops), 3), dtype=np.float32)
         mesh.corner_normals.foreach_get("vector", normals.reshape(-1))
         return normals
-    if np.bincount(faces).max() > MANY_TRIANGLES:
+    # Triangles of a face follow one another.
+    if (faces[MANY_TRIANGLES:] == faces[:-MANY_TRIANGLES]).any():
         return spread_out(_point_normals(mesh, points, corners), spread)
     return spread_out(vertex_normals(mesh), spread)
 
@@ -171,7 +167,7 @@ def _slots(mesh):
         return None
     slots = np.empty(len(mesh.polygons), dtype=np.int32)
     attribute.data.foreach_get("value", slots)
-    slots = slots.clip(0, max(len(mesh.materials) - 1, 0))
+    slots.clip(0, max(len(mesh.materials) - 1, 0), out=slots)
     return slots if slots.any() else None
 
 

@@ -5,10 +5,12 @@ import numpy as np
 
 from ..report import words_of
 from .deforming import with_motion
+from .fingerprint import fingerprint
 from .gather import AS_MESH
-from .mesh import fingerprint, mesh_arguments
+from .mesh import compact, mesh_arguments
 from .mesh_attributes import present
 from .modelled_normals import modelled
+from .passing import passing
 
 
 class Meshes:
@@ -57,29 +59,37 @@ class Meshes:
         if group.kind == "MESH" and not _is_being_edited(group):
             here = (group.data.as_pointer(), primvars, group.dicing)
             if here not in self._read_now:
-                self._read_now[here] = self._write(group, group.data, primvars)
+                with passing(group) as mesh:
+                    key, arguments = self._told(group, mesh, primvars)
+                self._read_now[here] = self._write(group, key, arguments)
             return self._read_now[here]
         if group.kind != "MESH" and group.kind not in AS_MESH:
             return None
         mesh = group.source.to_mesh()
         try:
-            return None if mesh is None else self._write(group, mesh, primvars)
+            key, arguments = (None, None) if mesh is None else self._told(group, mesh, primvars)
         finally:
             group.source.to_mesh_clear()
+        return self._write(group, key, arguments)
 
-    def _write(self, group, mesh, primvars):
+    def _told(self, group, mesh, primvars):
+        """What a mesh is known by, None for one without faces; and its arguments, None where the scene has them."""
         cut = modelled(group)
-        key = (fingerprint(mesh), frozenset(present(mesh, primvars)), group.dicing, cut and (cut[0].tobytes(), cut[1]))
-        if key not in self._slots:
-            arguments = mesh_arguments(mesh, primvars, cut)
-            if arguments is None:
-                return None
+        key = (fingerprint(mesh, primvars), frozenset(present(mesh, primvars)), group.dicing, cut and (cut[0].tobytes(), cut[1]))
+        if key in self._slots:
+            return key, None
+        arguments = mesh_arguments(mesh, primvars, cut)
+        return (key, arguments) if arguments else (None, None)
+
+    def _write(self, group, key, arguments):
+        """Has the scene hold a mesh by its key."""
+        if arguments is not None:
             number, _ = self._slots.take(key)
             self._add(number, group, arguments)
         return key
 
     def _add(self, number, group, arguments):
-        self.any_written = True
+        self.any_written, arguments = True, compact(arguments)
         points, triangles = arguments.pop("points"), arguments.pop("triangles")
 
         def put(index):
@@ -96,7 +106,8 @@ class Meshes:
             report.add("Object", group.name, "its faces are others at other times of the shutter; its form is not blurred")
         if moving is None:
             return None
-        key = (fingerprint(group.data), frozenset(present(group.data, primvars)), group.dicing, hash(moving["motion"].tobytes()))
+        with passing(group) as mesh:
+            key = (fingerprint(mesh, primvars), frozenset(present(mesh, primvars)), group.dicing, hash(moving["motion"].tobytes()))
         number, is_new = self._slots.take(key)
         if is_new:
             self._add(number, group, moving)
