@@ -3,10 +3,9 @@
 
 from ctypes import string_at
 
-import numpy as np
-
 from .material.inputs import ISLAND
 from .mesh_attributes import active_uv, read
+from .row import address, first_corners
 
 # Data types of attributes that surfaces show or normals follow -> bytes of an element.
 SIZES = {
@@ -40,19 +39,16 @@ def fingerprint(mesh, primvars):
         size = None if name == ".corner_edge" and not has_edges else SIZES.get(kind)
         parts.append((name, domain, kind, len(elements) if size is None else _hash(elements, size, lambda: read(attribute))))
     if len(mesh.loops) != 3 * len(mesh.polygons):
-        parts.append(_hash(mesh.polygons, 4, lambda: _where_faces_begin(mesh)))
+        parts.append(_hash(mesh.polygons, 4, lambda: first_corners(mesh)))
     return hash((*parts, tuple(mesh.texspace_location), tuple(mesh.texspace_size)))
 
 
 def _hash(elements, size, otherwise):
     """A number for elements of so many bytes that lie in a row; where they do not, for an array in their place, or None."""
-    count = len(elements)
-    if count == 0:
-        return 0
-    first = elements[0].as_pointer()
-    if elements[count - 1].as_pointer() - first == size * (count - 1):
-        return _hash_of_memory(first, size * count)
-    values = otherwise()
+    first = address(elements, size)
+    if first is not None:
+        return _hash_of_memory(first, size * len(elements))
+    values = otherwise() if len(elements) else None
     return None if values is None else _hash_of_memory(values.ctypes.data, values.nbytes)
 
 
@@ -60,10 +56,3 @@ def _hash_of_memory(first, length):
     if length <= CHUNK:
         return hash(string_at(first, length))
     return hash(tuple(hash(string_at(first + start, min(CHUNK, length - start))) for start in range(0, length, CHUNK)))
-
-
-def _where_faces_begin(mesh):
-    """The first corner of each face."""
-    starts = np.empty(len(mesh.polygons), dtype=np.int32)
-    mesh.polygons.foreach_get("loop_start", starts)
-    return starts

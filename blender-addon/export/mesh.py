@@ -1,19 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A Blender mesh as the arrays of `gonio.Scene.put_mesh`; raw attributes, so that little happens a vertex in Python."""
 
-import ctypes
-
 import numpy as np
 
 from .material.inputs import PARAMETRIC, SMOOTH_NORMAL, TANGENT, TRIANGLE, UV
 from .mesh_attributes import active_uv, spread_out, vertex_normals, wanted
 from .mesh_values import PARAMETRIC_CORNERS, apart, corner_points
 from .modelled_normals import modelled_normals
+from .row import first_corners, integers
 from .tangents import tangents
 from .transforms import unit
-
-# Three numbers of corners, as Blender keeps them.
-TRIANGLE_BYTES = 12
 
 # From faces of so many triangles on, Blender's own normals of points take longer than all the rest.
 MANY_TRIANGLES = 5000
@@ -33,9 +29,7 @@ def mesh_arguments(mesh, primvars, cut=None):
     mesh.attributes["position"].data.foreach_get("vector", points.reshape(-1))
     corners = np.empty(len(mesh.loops), dtype=np.int32)
     mesh.attributes[".corner_vert"].data.foreach_get("value", corners)
-    faces = np.arange(count, dtype=np.int32)
-    if not are_triangles:
-        mesh.loop_triangle_polygons.foreach_get("value", faces)
+    faces = np.arange(count, dtype=np.int32) if are_triangles else _faces(mesh, count)
     # The scene tells points from corners by their number: where both are as many, each corner gets a point of its own.
     spread = corners if len(points) == len(corners) else None
     arguments = {
@@ -105,15 +99,24 @@ def _triangles(mesh, count):
     """Corner numbers of each triangle."""
     if count == len(mesh.polygons):
         return np.arange(3 * count, dtype=np.int32).reshape(-1, 3)
-    first, last = mesh.loop_triangles[0], mesh.loop_triangles[count - 1]
-    if last.as_pointer() - first.as_pointer() == TRIANGLE_BYTES * (count - 1):
-        # `foreach_get` asks for one triangle after the other, which takes longer than all the rest; here they lie in a row.
-        row = np.frombuffer((ctypes.c_int32 * (3 * count)).from_address(first.as_pointer()), dtype=np.int32).reshape(count, 3)
-        if tuple(row[0]) == tuple(first.loops) and tuple(row[-1]) == tuple(last.loops):
-            return row.copy()
+    row = integers(mesh.loop_triangles, 3)
+    if row is not None and all(tuple(row[number]) == tuple(mesh.loop_triangles[number].loops) for number in (0, count - 1)):
+        return row.copy()
     triangles = np.empty((count, 3), dtype=np.int32)
     mesh.loop_triangles.foreach_get("loops", triangles.reshape(-1))
     return triangles
+
+
+def _faces(mesh, count):
+    """The face of each triangle."""
+    starts = first_corners(mesh)
+    sizes = np.append(starts[1:], np.int32(len(mesh.loops))) - starts
+    faces = np.repeat(np.arange(len(starts), dtype=np.int32), sizes - 2)
+    if len(faces) != count:
+        # Blender would keep these.
+        faces = np.empty(count, dtype=np.int32)
+        mesh.loop_triangle_polygons.foreach_get("value", faces)
+    return faces
 
 
 def _normals_as_modelled(mesh, corners, cut):
