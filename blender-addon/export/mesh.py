@@ -82,14 +82,6 @@ def _with_triangles_own(arguments, names):
     return arguments
 
 
-def compact(arguments):
-    """The arguments with as little as says the same: of triangles that are the faces, corners are points in their order."""
-    corners, triangles = arguments["corners"], arguments["triangles"]
-    if corners is None or len(corners) != triangles.size:
-        return arguments
-    return {**arguments, "triangles": corners.reshape(-1, 3), "corners": None, "faces": None}
-
-
 def triangle_loops(mesh):
     """Corner numbers of each triangle (T, 3) of a mesh whose triangles were computed."""
     return _triangles(mesh, len(mesh.loop_triangles))

@@ -4,10 +4,11 @@
 import numpy as np
 
 from ..report import words_of
+from .compact import compact
 from .deforming import with_motion
 from .fingerprint import fingerprint
 from .gather import AS_MESH
-from .mesh import compact, mesh_arguments
+from .mesh import mesh_arguments
 from .mesh_attributes import present
 from .modelled_normals import modelled
 from .passing import passing
@@ -89,7 +90,8 @@ class Meshes:
         return key
 
     def _add(self, number, group, arguments):
-        self.any_written, arguments = True, compact(arguments)
+        # Renderers that cut a mesh carry values of points and of corners over to new ones in other ways.
+        self.any_written, arguments = True, compact(arguments, keeps_corners=group.dicing is not None)
         points, triangles = arguments.pop("points"), arguments.pop("triangles")
 
         def put(index):
