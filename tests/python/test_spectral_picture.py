@@ -146,7 +146,7 @@ def test_glass_bends_every_wavelength_of_a_band():
     side, top = 0.1 * math.tan(apex / 2), 0.1
     section = [(-side, 0.0), (side, 0.0), (0.0, top)]
     points = np.array([(x, y, z) for y in (-0.2, 0.2) for x, z in section], np.float32)
-    faces = np.array([(0, 2, 1), (3, 4, 5), (0, 1, 4), (0, 4, 3), (1, 2, 5), (1, 5, 4), (2, 0, 3), (2, 3, 5)], np.int32)
+    faces = np.array([(0, 1, 2), (3, 5, 4), (0, 3, 4), (0, 4, 1), (1, 4, 5), (1, 5, 2), (2, 5, 3), (2, 3, 0)], np.int32)
     glass = made.add_material(transmission_weight=1.0, specular_roughness=0.0, specular_ior=index, transmission_dispersion=1 / 20)
     made.add_instance(made.add_mesh(points, faces), [glass])
     shine = made.add_material(emission_color=(1.0, 1.0, 1.0), base_color=(0.0, 0.0, 0.0), specular_weight=0.0)
@@ -155,7 +155,7 @@ def test_glass_bends_every_wavelength_of_a_band():
     made.add_instance(made.add_mesh(strip, CORNERS), [shine])
     eye = np.array((-0.5 * math.cos(lean), 0.0, middle - 0.5 * math.sin(lean)))
     made.add_camera(gonio.look_at(eye, (0.0, 0.0, middle), up=(0.0, 0.0, 1.0)), fov=12.0)
-    made.set(width=16, height=96, samples=512, spectral=True, caustics="off")
+    made.set(width=8, height=96, samples=256, spectral=True, caustics="off")
     rows = {band: np.asarray(gonio.spectral_picture(made, band=band).radiance).mean(axis=1) for band in (5.0, 20.0)}
     fine = rows[5.0].reshape(96, -1, 4).mean(axis=2)
     lit = rows[20.0].sum(axis=0) > 0

@@ -197,7 +197,8 @@ impl<'w, 'a, 'py> Walker<'w, 'a, 'py> {
         if stands_in && draw_mode::applies(self.context, prim) {
             return if is_shown { self.stand_in(prim, &branch, model) } else { Ok(()) };
         }
-        if is_shown {
+        // Surfaces that are measured on need not be shown; whoever places them leaves the surface itself out.
+        if is_shown || meter::is_measured(prim) {
             self.read(prim, &type_name, kind, &branch, model)?;
         }
         if let Some(shown) = self.skinned_as(prim) {
