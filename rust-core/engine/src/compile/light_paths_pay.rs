@@ -103,7 +103,7 @@ pub(super) fn decide(compiled: &mut CompiledScene, scene: &Scene, of_light: &[u3
         } else if found.lost >= LEAST_TOLD
             && let Some(origin) = &compiled.casters.first
         {
-            compiled.diagnostics.push(Diagnostic::warning(origin, lost(found.lost)));
+            compiled.diagnostics.push(Diagnostic::info(origin, lost(found.lost)));
         }
     }
     let traced = match scene.settings.caustics {
