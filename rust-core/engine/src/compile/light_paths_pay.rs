@@ -28,7 +28,7 @@ const LEAST_NOISE: f64 = 100.0;
 /// Least part of all light that lights without size send on, which is lost where no light path brings it.
 const LEAST_LOST: f64 = 0.02;
 /// The same that is told where light paths do not run for it.
-const LEAST_TOLD: f64 = 1e-3;
+const LEAST_TOLD: f64 = 5e-3;
 /// A light that sends most of what it lights by mirrors and glass decides for itself from this part of all light on.
 const LEAST_SHARE: f64 = 1e-3;
 /// Texels of a dome that its mean is taken of.
