@@ -40,6 +40,11 @@ impl Origin {
     pub fn new(name: impl AsRef<str>) -> Self {
         Self { name: Arc::from(name.as_ref()), file: Arc::from("") }
     }
+    /// Whether its path is another or lies below it.
+    pub fn is_below(&self, root: &str) -> bool {
+        let root = root.trim_end_matches('/');
+        self.name.strip_prefix(root).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
+    }
 }
 
 impl std::fmt::Display for Origin {
@@ -50,5 +55,17 @@ impl std::fmt::Display for Origin {
             (false, true) => write!(f, "{}", self.name),
             (true, true) => write!(f, "scene"),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paths_lie_below_whole_names() {
+        let is_below = |path: &str, root: &str| Origin::new(path).is_below(root);
+        assert!(is_below("/Room/Floor", "/Room") && is_below("/Room/Floor", "/Room/Floor") && is_below("/Room", "/"));
+        assert!(!is_below("/Room/Floor2", "/Room/Floor") && !is_below("/Room", "/Room/Floor"));
     }
 }

@@ -14,29 +14,28 @@ use crate::{
 /// Luminous flux in lm of each of the scene's lights, dimming included. None of lights at infinity, of portals, and of lights with an image over
 /// them; 0 where a quantity cannot be had.
 pub fn luminous_fluxes(scene: &Scene) -> Vec<Option<f64>> {
-    let mut goniograms = CompiledGoniograms::default();
-    let mut far_fields = FarFields::default();
-    let flux = |light: &Light| {
-        is_luminaire(light).then(|| {
-            let records = records(light, [0.0; 3], &mut goniograms, &mut far_fields);
-            quantity::flux_of(&records, &mut goniograms, &mut far_fields)
-        })
-    };
-    scene.lights.iter().map(flux).collect()
+    of_luminaires(scene, quantity::flux_of)
 }
 
 /// Luminous intensities in cd, dimming included, of each of the scene's lights as [`luminous_fluxes`] has them, towards directions of length 1.
 pub fn luminous_intensities(scene: &Scene, directions: &[[f64; 3]]) -> Vec<Option<Vec<f64>>> {
+    of_luminaires(scene, |records, goniograms, _| {
+        let far_field = FarField::new(records, &goniograms.tables);
+        directions.iter().map(|direction| far_field.in_direction(*direction)[0]).collect()
+    })
+}
+
+/// What is asked of the records of each light that is a luminaire.
+fn of_luminaires<T>(scene: &Scene, mut asked: impl FnMut(&[LightRecord], &mut CompiledGoniograms, &mut FarFields) -> T) -> Vec<Option<T>> {
     let mut goniograms = CompiledGoniograms::default();
     let mut far_fields = FarFields::default();
-    let intensities = |light: &Light| {
+    let of_light = |light: &Light| {
         is_luminaire(light).then(|| {
             let records = records(light, [0.0; 3], &mut goniograms, &mut far_fields);
-            let far_field = FarField::new(&records, &goniograms.tables);
-            directions.iter().map(|direction| far_field.in_direction(*direction)[0]).collect()
+            asked(&records, &mut goniograms, &mut far_fields)
         })
     };
-    scene.lights.iter().map(intensities).collect()
+    scene.lights.iter().map(of_light).collect()
 }
 
 /// A light as an eye sees it.

@@ -33,13 +33,13 @@ impl MappedSurface {
 
 /// The surfaces that are asked for, in the scene's order; those without an area have no map.
 pub(super) fn chosen(scene: &Scene, compiled: &CompiledScene, options: &MapOptions) -> Result<Vec<MappedSurface>> {
-    if let Some(unknown) = options.prims.iter().find(|prim| !scene.instances.iter().any(|set| is_below(&set.origin.name, prim))) {
+    if let Some(unknown) = options.prims.iter().find(|prim| !scene.instances.iter().any(|set| set.origin.is_below(prim))) {
         return Err(Error::setting("prim", format!("'{unknown}' is no surface of the scene and has none below it")));
     }
     let rows = &compiled.tables.geometry.instances[..compiled.tables.first_light_instance as usize];
     let surface = |(instance, row): (usize, &crate::geometry::InstanceRow)| {
         let set = &scene.instances[row.set as usize];
-        if !options.prims.is_empty() && !options.prims.iter().any(|prim| is_below(&set.origin.name, prim)) {
+        if !options.prims.is_empty() && !options.prims.iter().any(|prim| set.origin.is_below(prim)) {
             return None;
         }
         let transform = set.transforms[row.number as usize];
@@ -67,12 +67,6 @@ pub(super) fn chosen(scene: &Scene, compiled: &CompiledScene, options: &MapOptio
     Ok(surfaces)
 }
 
-/// Whether a path is another or lies below it.
-fn is_below(path: &str, root: &str) -> bool {
-    let root = root.trim_end_matches('/');
-    path.strip_prefix(root).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
-}
-
 /// Square metres of a triangle in the world; 0 of one that has none.
 fn area(points: &[[f32; 3]], corners: [u32; 3], transform: &Transform) -> f64 {
     let [Some(a), Some(b), Some(c)] = corners.map(|corner| points.get(corner as usize).map(|point| point.map(f64::from))) else {
@@ -88,12 +82,6 @@ fn area(points: &[[f32; 3]], corners: [u32; 3], transform: &Transform) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn paths_lie_below_whole_names() {
-        assert!(is_below("/Room/Floor", "/Room") && is_below("/Room/Floor", "/Room/Floor") && is_below("/Room", "/"));
-        assert!(!is_below("/Room/Floor2", "/Room/Floor") && !is_below("/Room", "/Room/Floor"));
-    }
 
     #[test]
     fn areas_are_those_of_the_world() {

@@ -1,6 +1,6 @@
 //! Files of a metal's n and k: rows of wavelength, n and k, or a block of n and one of k, as the refractiveindex.info database gives them.
 
-use super::{LONGEST, decoded, quoted};
+use super::{LONGEST, cells, decoded, quoted};
 use crate::{check::MOST, metal::MetalIndex, table::linear};
 use gonio_formats::FormatError;
 
@@ -23,7 +23,7 @@ pub fn read_metal(bytes: &[u8], name: &str) -> Result<MetalIndex, FormatError> {
     let mut curves: [Curve; 2] = Default::default();
     let mut block = 0;
     for (line, row) in (1_u64..).zip(text.lines()) {
-        let cells: Vec<&str> = row.split([',', ';', '\t', ' ']).map(str::trim).filter(|cell| !cell.is_empty()).collect();
+        let cells = cells(row);
         let numbers: Vec<f64> = cells.iter().map_while(|cell| cell.parse().ok()).collect();
         match numbers.as_slice() {
             [] => block = if cells.last().is_some_and(|cell| *cell == "k") && cells.len() == 2 { 1 } else { block },

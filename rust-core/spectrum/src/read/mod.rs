@@ -45,6 +45,11 @@ fn decoded(bytes: &[u8]) -> Result<String, FormatError> {
     }
 }
 
+/// What a line holds between commas, semicolons, tabs and blanks.
+fn cells(line: &str) -> Vec<&str> {
+    line.split([',', ';', '\t', ' ']).map(str::trim).filter(|cell| !cell.is_empty()).collect()
+}
+
 /// A part of a file for messages.
 fn quoted(text: &str) -> String {
     let short: String = text.trim().chars().take(SHOWN).map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect();

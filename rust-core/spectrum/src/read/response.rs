@@ -1,6 +1,6 @@
 //! Response curves of cameras and other sensors: a table of wavelengths with a column for each channel.
 
-use super::{LONGEST, decoded, quoted};
+use super::{LONGEST, cells, decoded, quoted};
 use crate::{check::MOST, table::linear};
 use gonio_formats::FormatError;
 
@@ -37,7 +37,7 @@ impl Response {
             if line.is_empty() || line.starts_with('#') {
                 continue;
             }
-            let cells: Vec<&str> = line.split([',', ';', '\t', ' ']).map(str::trim).filter(|cell| !cell.is_empty()).collect();
+            let cells = cells(line);
             if found.wavelengths_nm.is_empty() && found.names.is_empty() && cells.iter().all(|cell| cell.parse::<f64>().is_err()) {
                 found.names = cells.iter().skip(1).map(|cell| (*cell).to_owned()).collect();
                 continue;
