@@ -4,10 +4,15 @@
 use crate::{
     chunk::Chunk,
     division::{Division, dot},
+    error::Result,
+    evaluate::{Settings, evaluate},
+    group::Group,
     metrics::jackknife,
+    position_index::position_index,
     schedule::Schedule,
-    sky::SkyMatrix,
+    sky::{Light, Quantity, SkyMatrix, SkyOptions},
     sun::SUN_ANGLE_DEG,
+    year::Year,
 };
 use serde::Serialize;
 use std::f64::consts::TAU;
@@ -23,9 +28,6 @@ const EXCEEDED: f64 = 0.05;
 /// Parts of the range from 0 to 1 that values are counted in.
 const BINS: usize = 1000;
 
-/// A position index by the direction in the eye's frame: right, up, ahead.
-pub type PositionIndex<'a> = &'a (dyn Fn([f64; 3]) -> f64 + Sync);
-
 /// What an eye sees of the sky with nothing scattering between.
 #[derive(Clone, Debug)]
 pub struct SkyView {
@@ -40,7 +42,7 @@ pub struct SkyView {
 impl SkyView {
     /// By what patches of a division bring straight to the plane across the line of sight, lx for 1 cd/m², in each of several rounds, each of one place a
     /// patch. `facing` is of length 1.
-    pub fn new<'a>(division: &Division, facing: [f64; 3], rounds: impl Iterator<Item = &'a [f32]>, index: PositionIndex<'_>) -> Self {
+    pub fn new<'a>(division: &Division, facing: [f64; 3], rounds: impl Iterator<Item = &'a [f32]>) -> Self {
         let patches = division.patches();
         let frame = Frame::new(facing);
         let weights: Vec<Option<[f64; 2]>> = patches
@@ -50,7 +52,7 @@ impl SkyView {
                 let direction = patch.direction();
                 let cosine = dot(direction, facing);
                 (number > 0 && cosine > LEAST_COSINE)
-                    .then(|| [cosine * patch.solid_angle, index(frame.of(direction)).powi(-2) * patch.solid_angle])
+                    .then(|| [cosine * patch.solid_angle, position_index(frame.of(direction)).powi(-2) * patch.solid_angle])
             })
             .collect();
         let (mut share, mut strength, mut count) = (vec![0.0; patches.len()], vec![0.0; patches.len()], 0);
@@ -75,13 +77,13 @@ impl SkyView {
     }
 
     /// The same of the sun's disc, by what it brings straight to the plane across the line of sight, lx.
-    fn of_sun(&self, sun: [f64; 3], illuminance: f64, index: PositionIndex<'_>) -> f64 {
+    fn of_sun(&self, sun: [f64; 3], illuminance: f64) -> f64 {
         let cosine = dot(sun, self.facing);
         if cosine <= 1e-3 || illuminance <= 0.0 {
             return 0.0;
         }
         let disc = TAU * (1.0 - (0.5 * SUN_ANGLE_DEG).to_radians().cos());
-        (illuminance / cosine).powi(2) / disc * index(Frame::new(self.facing).of(sun)).powi(-2)
+        (illuminance / cosine).powi(2) / disc * position_index(Frame::new(self.facing).of(sun)).powi(-2)
     }
 }
 
@@ -104,25 +106,32 @@ impl Frame {
     }
 }
 
-/// Daylight glare probability (Wienold and Christoffersen 2006) of light at the eye in lx and the sum over sources, with Wienold's correction below
-/// 1000 lx; 0 in the dark.
-fn dgp(illuminance: f64, sources: f64) -> f64 {
-    if illuminance <= 0.0 {
-        return 0.0;
-    }
-    let plain = (5.87e-5 * illuminance + 0.0918 * (1.0 + sources / illuminance.powf(1.87)).log10() + 0.16).min(1.0);
-    let exponential = (0.024 * illuminance.min(1000.0) - 4.0).exp();
-    if illuminance < 1000.0 { plain * exponential / (1.0 + exponential) } else { plain }
+/// Daylight glare probability (Wienold and Christoffersen 2006) of E_v lx at the eye: 5.87·10⁻⁵ E_v + 0.0918 log₁₀(1 + s / E_v^1.87) + 0.16, at most 1, where
+/// s is Σ L² ω / P² over the sources.
+pub fn dgp(illuminance: f64, sources: f64) -> f64 {
+    let of_sources = if illuminance > 0.0 { sources / illuminance.powf(1.87) } else { 0.0 };
+    (5.87e-5 * illuminance + 0.0918 * (1.0 + of_sources).log10() + 0.16).min(1.0)
+}
+
+/// The same with Wienold's correction for little light, as evalglare has it below 1000 lx: times e^(0.024 E_v − 4) / (1 + e^(0.024 E_v − 4)).
+pub fn dgp_low_light(illuminance: f64, sources: f64) -> f64 {
+    let (dgp, exponential) = (dgp(illuminance, sources), (0.024 * illuminance.min(1000.0) - 4.0).exp());
+    if illuminance < 1000.0 { dgp * exponential / (1.0 + exponential) } else { dgp }
+}
+
+/// The value of an hour: [`dgp_low_light`], 0 in the dark.
+fn of_hour(illuminance: f64, sources: f64) -> f64 {
+    if illuminance > 0.0 { dgp_low_light(illuminance, sources) } else { 0.0 }
 }
 
 /// What a year's glare at an eye comes to.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct EyeGlare {
-    /// Shares of the used time with a DGP above 0.35, 0.40 and 0.45.
+    /// Share of the used time with a DGP above 0.35.
     pub above_035: f64,
-    /// As before.
+    /// Above 0.40.
     pub above_040: f64,
-    /// As before.
+    /// Above 0.45.
     pub above_045: f64,
     /// The value that is exceeded in 5 % of the used time.
     pub dgp_5_percent: f64,
@@ -137,11 +146,14 @@ impl EyeGlare {
         Self { above_035, above_040, above_045, dgp_5_percent }
     }
 
-    /// What EN 17037 calls it: a value that is exceeded in no more than 5 % of the used time.
+    /// Which of 0.35, 0.40 and 0.45 are exceeded in no more than 5 % of the used time.
+    pub fn keeps(&self) -> [bool; 3] {
+        [self.above_035, self.above_040, self.above_045].map(|share| share <= EXCEEDED)
+    }
+
+    /// What EN 17037 calls it, by the strictest value that it keeps.
     pub fn level(&self) -> &'static str {
-        let names = ["high", "medium", "minimum"];
-        let shares = [self.above_035, self.above_040, self.above_045];
-        names.iter().zip(shares).find(|(_, share)| *share <= EXCEEDED).map_or("below the minimum", |(name, _)| name)
+        ["high", "medium", "minimum"].into_iter().zip(self.keeps()).find(|(_, keeps)| *keeps).map_or("below the minimum", |(name, _)| name)
     }
 }
 
@@ -184,26 +196,44 @@ pub struct GlareYear {
 }
 
 impl GlareYear {
-    /// A dark year of so many steps.
-    pub fn new(views: Vec<SkyView>, steps: usize) -> Self {
+    /// The year of eyes by what they see of the sky, and a group of windows that has a point for each, the plane across its line of sight. `goes_on` is asked
+    /// now and then, and stops the calculation by `false`: then there is no result.
+    ///
+    /// # Errors
+    /// As [`evaluate`].
+    pub fn new(
+        year: &Year,
+        schedule: &Schedule,
+        (views, group): (Vec<SkyView>, Group),
+        settings: &Settings,
+        goes_on: &dyn Fn() -> bool,
+    ) -> Result<Option<Self>> {
+        let factor = Division::of_count(group.open.columns).map_or(settings.sky.factor, |division| division.factor());
+        let sky = SkyOptions { factor, light: Light::WithoutSun, quantity: Quantity::Luminance, ..settings.sky };
+        let (sky, steps) = (SkyMatrix::new(year, sky)?, year.steps.len());
         let values = vec![0.0; views.len() * steps];
-        Self { views, steps, values, counts: Vec::new(), contrast: Default::default() }
+        let mut found = Self { views, steps, values, counts: Vec::new(), contrast: Default::default() };
+        let mut take = |chunk: &Chunk<'_>| {
+            found.take(chunk, &sky, schedule, settings.threads);
+            goes_on()
+        };
+        Ok(evaluate(year, schedule, &[group], settings, &mut take)?.map(|_| found))
     }
 
     /// Takes a chunk of light at the eyes' planes; `sky` has the sky alone, without its sun.
-    pub fn take(&mut self, chunk: &Chunk<'_>, sky: &SkyMatrix<'_>, schedule: &Schedule, (threads, index): (usize, PositionIndex<'_>)) {
+    fn take(&mut self, chunk: &Chunk<'_>, sky: &SkyMatrix<'_>, schedule: &Schedule, threads: usize) {
         let variant = chunk.without.map_or(0, |round| round + 1);
         while self.counts.len() <= variant {
             self.counts.push(vec![Counted([0; BINS + 1]); self.views.len()]);
         }
         if self.contrast.0 != chunk.steps {
-            self.contrast = (chunk.steps.to_vec(), self.sources(chunk, sky, threads, index));
+            self.contrast = (chunk.steps.to_vec(), self.sources(chunk, sky, threads));
         }
         let count = chunk.steps.len();
         for eye in 0..self.views.len() {
             for (place, step) in chunk.steps.iter().enumerate() {
                 let at = eye * count + place;
-                let value = dgp(f64::from(chunk.total[at]), self.contrast.1[at]);
+                let value = of_hour(f64::from(chunk.total[at]), self.contrast.1[at]);
                 if schedule.is_used(*step) {
                     self.counts[variant][eye].add(value);
                 }
@@ -215,13 +245,13 @@ impl GlareYear {
     }
 
     /// Σ L² ω / P² of sky and sun, eyes × steps.
-    fn sources(&self, chunk: &Chunk<'_>, sky: &SkyMatrix<'_>, threads: usize, index: PositionIndex<'_>) -> Vec<f64> {
+    fn sources(&self, chunk: &Chunk<'_>, sky: &SkyMatrix<'_>, threads: usize) -> Vec<f64> {
         let (columns, count) = (sky.columns(chunk.steps, threads), chunk.steps.len());
         let patches = columns.len() / count.max(1);
         let sum = |(eye, view): (usize, &SkyView)| {
             let of_step = |(place, step): (usize, &usize)| {
                 let direct = chunk.direct.map_or(0.0, |direct| f64::from(direct[eye * count + place]));
-                let sun = view.of_sun(sky.year().steps[*step].sun.direction(), direct, index);
+                let sun = view.of_sun(sky.year().steps[*step].sun.direction(), direct);
                 view.of_sky(&columns[place * patches..][..patches]) + sun
             };
             chunk.steps.iter().enumerate().map(of_step).collect::<Vec<f64>>()
@@ -257,24 +287,23 @@ impl GlareYear {
 mod tests {
     use super::*;
 
-    fn plain(_: [f64; 3]) -> f64 {
-        1.0
-    }
-
     #[test]
     fn an_open_sky_is_all_seen() {
         let division = Division::new(1).expect("Tregenza's");
         let facing = [0.0, 1.0, 0.0];
         let rounds: Vec<f32> =
             division.patches().iter().map(|patch| (dot(patch.direction(), facing).max(0.0) * patch.solid_angle) as f32).collect();
-        let view = SkyView::new(&division, facing, std::iter::once(rounds.as_slice()), &plain);
+        let view = SkyView::new(&division, facing, std::iter::once(rounds.as_slice()));
         let bright = vec![3000.0; 146];
         let ahead: f64 = division
             .patches()
             .iter()
             .skip(1)
             .filter(|patch| dot(patch.direction(), facing) > LEAST_COSINE)
-            .map(|patch| patch.solid_angle)
+            .map(|patch| {
+                let [east, north, up] = patch.direction();
+                patch.solid_angle / position_index([east, up, north]).powi(2)
+            })
             .sum();
         assert!((view.of_sky(&bright) / (9e6 * ahead) - 1.0).abs() < 1e-5);
         assert_eq!(view.of_sky(&vec![1999.0; 146]), 0.0);
@@ -287,15 +316,17 @@ mod tests {
         let sun = [0.0, 0.6, 0.8];
         // 1e9 cd/m² through glass of 0.5.
         let seen = 0.5e9 * disc * 0.6;
-        assert!((view.of_sun(sun, seen, &plain) / (0.25e18 * disc) - 1.0).abs() < 1e-9);
-        assert_eq!(view.of_sun([0.0, -0.6, 0.8], 100.0, &plain), 0.0);
+        let weight = position_index([0.0, 0.8, 0.6]).powi(-2);
+        assert!((view.of_sun(sun, seen) / (0.25e18 * disc * weight) - 1.0).abs() < 1e-9);
+        assert_eq!(view.of_sun([0.0, -0.6, 0.8], 100.0), 0.0);
     }
 
     #[test]
     fn values_are_wienolds() {
         assert!((dgp(3000.0, 0.0) - 0.3361).abs() < 1e-9);
         assert!((dgp(3000.0, 3000_f64.powf(1.87) * 9.0) - 0.4279).abs() < 1e-9);
-        assert!(dgp(100.0, 1e9) < 0.2 && dgp(0.0, 1e9) == 0.0);
+        assert!((of_hour(3000.0, 0.0) - 0.3361).abs() < 1e-9);
+        assert!(of_hour(100.0, 1e9) < 0.2 && of_hour(0.0, 1e9) == 0.0);
     }
 
     #[test]

@@ -4,9 +4,9 @@ use super::{
     arguments::{OutputArguments, RenderOptions},
     file::{check_ending, print_path},
     measure::watched,
-    messages::list,
+    messages::tell,
     progress::Reporter,
-    render::{MOST_WARNINGS, attributes},
+    render::attributes,
 };
 use gonio::{
     Error, Result,
@@ -42,9 +42,7 @@ pub(super) fn render(
     let bands = bands(options.files.band)?;
     let (found, diagnostics) =
         watched(Reporter::new(options.quiet), previous, interrupted, |watch| spectral_picture(scene, bands, execution, watch))?;
-    if !options.quiet {
-        list(&diagnostics, if options.stage.verbose { usize::MAX } else { MOST_WARNINGS });
-    }
+    tell(&options.stage, options.quiet, &diagnostics);
     let exposure = scene.cameras[scene.settings.camera as usize].exposure.0;
     let notes = ExrOptions { exposure, attributes: attributes(options, scene).to_vec(), ..ExrOptions::default() };
     write_spectral(path, &found, &notes)?;

@@ -2,29 +2,32 @@
 
 use super::{
     arguments::EmergencyOptions,
+    file,
     measure::{apply_settings, evaluated},
-    messages::{list, print},
+    messages::{print, tell},
     progress::Reporter,
-    render::{MOST_WARNINGS, stage_options},
+    render::stage_options,
     stage::Stage,
 };
 use gonio::{
     Error, Result,
     compile::luminous_intensities,
-    scene::{Integrator, Light, Meter, Origin, Scene, read_file},
+    scene::{Integrator, Light, Meter, Origin, Scene},
 };
 use gonio_emergency::{Figures, Lamp, Plan, Reading, Spot, lines};
 use gonio_usd::meter::axes;
 use pyo3::prelude::*;
 use std::{collections::BTreeMap, sync::atomic::AtomicBool};
 
+/// The longest plan in bytes.
+const LONGEST_PLAN: u64 = 1 << 24;
 /// Degrees between directions in which intensities are asked for, across and down.
 const STEPS_DEG: [f64; 2] = [5.0, 1.0];
 
 /// Measures what the plan asks for and tells what it comes to.
 pub(super) fn emergency(py: Python<'_>, options: &EmergencyOptions, interrupted: &'static AtomicBool) -> Result<i32> {
     let name = &options.plan;
-    let bytes = read_file(name).map_err(|source| Error::io(name, source))?;
+    let bytes = file::read(name, LONGEST_PLAN, "plan")?;
     let plan = Plan::read(&String::from_utf8_lossy(&bytes)).map_err(|error| Error::in_file(name, &error))?;
     let stage_options = stage_options(&options.stage)?;
     let stage = Stage::open(py, &options.stage.stage, &options.stage.state, &stage_options)?;
@@ -37,15 +40,10 @@ pub(super) fn emergency(py: Python<'_>, options: &EmergencyOptions, interrupted:
     scene.grids.clear();
     // What surfaces send on does not count (EN 1838).
     apply_settings(scene, (options.spp, None), Integrator::Direct, (&options.work, &options.textures));
-    let most = if options.stage.verbose { usize::MAX } else { MOST_WARNINGS };
-    if !options.quiet {
-        list(&loaded.diagnostics, most);
-    }
+    tell(&options.stage, options.quiet, &loaded.diagnostics);
     let (dark, lamps) = (scene.without_emission(), seen(scene, &lamps, &plan, up));
     let found = py.detach(|| evaluated(&dark, None, Reporter::new(options.quiet), interrupted))?;
-    if !options.quiet {
-        list(&found.diagnostics, most);
-    }
+    tell(&options.stage, options.quiet, &found.diagnostics);
     let reading = |found: &gonio::measure::MeterReading| Reading { lx: found.reading.value, error: found.reading.standard_error };
     let readings: Vec<Reading> = found.meters.iter().map(reading).collect();
     let figures = Figures::new(&plan, &spots, &readings, lamps);
@@ -65,28 +63,27 @@ fn meter(spot: &Spot) -> Meter {
 /// Leaves the plan's lights alone burning and gives their numbers.
 fn put_out_others(scene: &mut Scene, plan: &Plan) -> Result<Vec<usize>> {
     let everything = plan.groups.is_empty() && plan.lights.is_empty();
-    let lies_under = |light: &Light, path: &String| {
-        light.origin.name.strip_prefix(path.as_str()).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
-    };
     let burns = |light: &Light| {
         let is_lamp = !light.portal && !light.shape.is_at_infinity();
-        is_lamp && (everything || plan.groups.contains(&light.group) || plan.lights.iter().any(|path| lies_under(light, path)))
+        is_lamp && (everything || plan.groups.contains(&light.group) || plan.lights.iter().any(|path| light.origin.is_below(path)))
     };
     let groups = scene.light_groups();
     if let Some(unknown) = plan.groups.iter().find(|group| !groups.contains(group)) {
         return Err(Error::setting("plan", format!("there is no light group '{unknown}', expected one of {}", groups.join(", "))));
     }
-    if let Some(unknown) = plan.lights.iter().find(|path| !scene.lights.iter().any(|light| lies_under(light, path))) {
+    if let Some(unknown) = plan.lights.iter().find(|path| !scene.lights.iter().any(|light| light.origin.is_below(path))) {
         return Err(Error::setting("plan", format!("no light of the stage is at or under '{unknown}'")));
     }
-    let burning: Vec<usize> = (0..scene.lights.len()).filter(|k| burns(&scene.lights[*k])).collect();
-    if burning.is_empty() {
-        return Err(Error::setting("plan", "no light of the stage shines in an emergency; lights at infinity do not count"));
-    }
+    let mut burning = Vec::new();
     for (number, light) in scene.lights.iter_mut().enumerate() {
-        if !burning.contains(&number) {
+        if burns(light) {
+            burning.push(number);
+        } else {
             light.dimming = 0.0;
         }
+    }
+    if burning.is_empty() {
+        return Err(Error::setting("plan", "no light of the stage shines in an emergency; lights at infinity do not count"));
     }
     Ok(burning)
 }

@@ -6,14 +6,11 @@ use super::{
     file::check_targets,
     file_name,
     interrupt::INTERRUPTED,
-    messages::list,
+    messages::tell,
     output::{Notes, Writer},
     products::{gamut_of, half_layers},
     progress::Reporter,
-    render::{
-        MOST_WARNINGS, attributes, complete_scene, files_of, frames_of, name_layers, sample_time, shows_motion, stage_options,
-        write_cropped,
-    },
+    render::{attributes, complete_scene, files_of, frames_of, name_layers, sample_time, shows_motion, stage_options, write_cropped},
     stage::Stage,
 };
 use clap::Parser;
@@ -63,9 +60,7 @@ pub(super) fn render(py: Python<'_>, options: &mut RenderOptions, words: &[Strin
     let frames = frames_of(options, stage.info().time_range.map(|[first, _]| first))?;
     check_targets(&files_of(options, &stage, frames[0])?)?;
     let first = load(py, &stage, options, frames[0])?;
-    if !options.quiet {
-        list(&first.diagnostics, if options.stage.verbose { usize::MAX } else { MOST_WARNINGS });
-    }
+    tell(&options.stage, options.quiet, &first.diagnostics);
     let count = options.farm.dask_parts.map_or_else(|| cluster.call_method1("parts_for", (frames.len(),))?.extract(), Ok);
     let parts = parts(&first.scene.settings, count.map_err(|error: PyErr| failure(py, &error))?)?;
     let parts: Vec<_> = parts.iter().map(|part| (part.tiles, part.samples)).collect();

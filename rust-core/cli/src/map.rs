@@ -5,11 +5,11 @@ use super::{
     daylight, falsecolor,
     file::{check_ending, check_targets, ending, print_path, put, write_or_keep},
     interrupt::goes_on,
-    messages::list,
     messages::print,
     messages::say,
+    messages::tell,
     progress::Reporter,
-    render::{MOST_WARNINGS, stage_options},
+    render::stage_options,
     share::share,
     stage::{Stage, light_model},
 };
@@ -73,7 +73,6 @@ fn run(
     stage: &Stage,
     interrupted: &'static AtomicBool,
 ) -> Result<i32> {
-    let most = if options.stage.verbose { usize::MAX } else { MOST_WARNINGS };
     daylight::add(&options.daylight, &mut loaded, options.stage.strict, options.quiet)?;
     light_model(&options.stage.stage, &mut loaded, options.quiet);
     let camera = ViewOptions {
@@ -86,18 +85,14 @@ fn run(
     complete(&mut loaded, &primary, &camera)?;
     options.work.apply(&mut loaded.scene.settings);
     options.textures.apply(&mut loaded.scene.settings);
-    if !options.quiet {
-        list(&loaded.diagnostics, most);
-    }
+    tell(&options.stage, options.quiet, &loaded.diagnostics);
     let scene = &loaded.scene;
     let compiled = compile(scene, None, interrupted)?;
     let start = Instant::now();
     let maps = traced(options, wanted, scene, &compiled, interrupted)?;
     let seconds = start.elapsed().as_secs_f64();
-    if !options.quiet {
-        list(&compiled.diagnostics, most);
-        list(&maps.diagnostics, most);
-    }
+    tell(&options.stage, options.quiet, &compiled.diagnostics);
+    tell(&options.stage, options.quiet, &maps.diagnostics);
     let written = write(options, scene, &maps, stage)?;
     for path in options.output.iter().filter(|path| ending(path) == "png") {
         let (values, size) =

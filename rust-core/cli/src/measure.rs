@@ -6,10 +6,10 @@ use super::{
     file::{check_ending, check_targets, print_path, put},
     glare::coverage_json,
     interrupt::goes_on,
-    messages::list,
     messages::print,
+    messages::tell,
     progress::Reporter,
-    render::{MOST_WARNINGS, stage_options},
+    render::stage_options,
     spectrum::figures_json,
     stage::{Stage, light_model},
 };
@@ -54,9 +54,7 @@ pub(super) fn loaded(py: Python<'_>, options: &MeasuringArguments, interrupted: 
     take_points(&mut loaded.scene, &options.grids, points);
     daylight::add(&options.daylight, &mut loaded, options.stage.strict, options.quiet)?;
     light_model(&options.stage.stage, &mut loaded, options.quiet);
-    if !options.quiet {
-        list(&loaded.diagnostics, most_warnings(options));
-    }
+    tell(&options.stage, options.quiet, &loaded.diagnostics);
     let limits = (options.spp, options.max_bounces);
     apply_settings(&mut loaded.scene, limits, options.integrator.into(), (&options.work, &options.textures));
     check_asked(&loaded.scene)?;
@@ -79,11 +77,6 @@ pub(super) fn check_asked(scene: &Scene) -> Result<()> {
     if scene.meters.is_empty() && scene.grids.is_empty() { Err(Error::setting("grid", problem)) } else { Ok(()) }
 }
 
-/// How many warnings are listed.
-pub(super) fn most_warnings(options: &MeasuringArguments) -> usize {
-    if options.stage.verbose { usize::MAX } else { MOST_WARNINGS }
-}
-
 fn measurand(name: &str) -> Result<Measurand> {
     Measurand::by_name(name).ok_or_else(|| {
         let expected = Measurand::NAMES.map(|(_, name)| name).join(", ");
@@ -100,9 +93,7 @@ pub(super) fn author_grids(py: Python<'_>, stage: &Stage, grids: &GridArguments,
 fn run(options: &MeasureOptions, loaded: Loaded, interrupted: &'static AtomicBool) -> Result<i32> {
     let measuring = &options.measuring;
     let found = evaluated(&loaded.scene, None, Reporter::new(measuring.quiet), interrupted)?;
-    if !measuring.quiet {
-        list(&found.diagnostics, most_warnings(measuring));
-    }
+    tell(&measuring.stage, measuring.quiet, &found.diagnostics);
     if let Some(path) = &options.csv {
         put(path, csv(&found).as_bytes())?;
     }

@@ -1,5 +1,6 @@
 //! What the command says: results on standard output, all else on standard error.
 
+use super::arguments::StageArguments;
 use gonio::{Diagnostic, Error, Severity};
 use gonio_formats::tame;
 use std::{
@@ -7,6 +8,9 @@ use std::{
     path::Path,
     sync::{Mutex, PoisonError},
 };
+
+/// Warnings listed without `--verbose`.
+pub(super) const MOST_WARNINGS: usize = 20;
 
 /// What went wrong with standard output.
 static LOST: Mutex<Option<io::Error>> = Mutex::new(None);
@@ -32,6 +36,13 @@ pub(super) fn print(line: &str) {
 pub(super) fn check_printed() -> gonio::Result<()> {
     let lost = LOST.lock().unwrap_or_else(PoisonError::into_inner).take();
     lost.map_or(Ok(()), |error| Err(Error::io(Path::new("standard output"), error)))
+}
+
+/// Lists what is not as asked of a stage: all of it with `--verbose`, nothing where a command is to be quiet.
+pub(super) fn tell(stage: &StageArguments, is_quiet: bool, diagnostics: &[Diagnostic]) {
+    if !is_quiet {
+        list(diagnostics, if stage.verbose { usize::MAX } else { MOST_WARNINGS });
+    }
 }
 
 /// Lists what is not as asked: warnings line by line, at most `most`, and how many more there are.

@@ -7,16 +7,15 @@ use super::{
     daylight, explain,
     file::check_targets,
     file_name, frames,
-    ifc::is_ifc,
-    messages::list,
     messages::print,
     messages::say,
+    messages::tell,
     output::{Notes, Writer},
     products::{Picture, Products, half_layers},
     progress::{Reporter, clock},
     sequence,
     snapshot::Snapshots,
-    stage::Stage,
+    stage::{Stage, is_model},
 };
 use gonio::{
     Error, Result,
@@ -27,7 +26,6 @@ use gonio::{
     scene::{AMBIENT_OCCLUSION, Aov, Crop, EYE_NORMAL, EYE_POSITION, Filter, MatteKind, Scene, Settings},
     texture::TextureStatistics,
 };
-use gonio_models::is_model;
 use gonio_simd::Execution;
 use gonio_usd::{
     Complexity, Loaded, Purpose, SampleTime, StageOptions, VariantSelection, camera,
@@ -46,9 +44,6 @@ use std::{
     },
     time::{Duration, Instant},
 };
-
-/// Warnings listed without `--verbose`.
-pub(super) const MOST_WARNINGS: usize = 20;
 
 /// Renders all frames asked for.
 pub(super) fn render(py: Python<'_>, options: &RenderOptions, interrupted: &'static AtomicBool) -> Result<i32> {
@@ -254,7 +249,7 @@ pub(super) fn complete_scene(options: &RenderOptions, loaded: &mut Loaded, produ
 fn headlight(options: &RenderOptions) -> Headlight {
     match options.headlight {
         Some(HeadlightArgument::Dome) => Headlight::Dome,
-        None if is_model(&options.stage.stage) || is_ifc(&options.stage.stage) => Headlight::Dome,
+        None if is_model(&options.stage.stage) => Headlight::Dome,
         _ => Headlight::Camera,
     }
 }
@@ -292,8 +287,8 @@ impl Job<'_> {
         // Render products of the stage name files too.
         check_targets(self.picture.files.iter().map(|file| &file.path).chain(&self.picture.deep))?;
         complete_scene(self.options, &mut loaded, self.picture.product)?;
-        if self.is_first && !self.options.quiet {
-            list(&loaded.diagnostics, if self.options.stage.verbose { usize::MAX } else { MOST_WARNINGS });
+        if self.is_first {
+            tell(&self.options.stage, self.options.quiet, &loaded.diagnostics);
         }
         if let Some(path) = &self.by_wavelength {
             by_wavelength::render(self.options, (&loaded.scene, previous), path, self.execution, self.interrupted)?;
@@ -390,9 +385,7 @@ impl Job<'_> {
 
     /// Diagnostics of the compile step; errors with `--strict`.
     fn complain(&self, compiled: &CompiledScene) -> Result<()> {
-        if !self.options.quiet {
-            list(&compiled.diagnostics, if self.options.stage.verbose { usize::MAX } else { MOST_WARNINGS });
-        }
+        tell(&self.options.stage, self.options.quiet, &compiled.diagnostics);
         match compiled.diagnostics.first() {
             Some(first) if self.options.stage.strict => Err(Error::scene(&first.origin, first.message.clone())),
             _ => Ok(()),

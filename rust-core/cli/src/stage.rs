@@ -7,7 +7,7 @@ use super::{
 use gonio::map::FaceTable;
 use gonio::scene::{HAZE_ANISOTROPY, Medium, Origin, Transform, VISIBILITY_CONTRAST};
 use gonio::{Error, Result, Severity};
-use gonio_models::{DEFAULT_SKY_LUX, Model, Options, add_default_sky, is_model};
+use gonio_models::{DEFAULT_SKY_LUX, Model, Options, add_default_sky};
 use gonio_usd::{CameraInfo, Loaded, LuminaireFile, SampleTime, StageInfo, StageOptions, context::UpAxis, view::shines};
 use pyo3::Python;
 use std::path::{Path, PathBuf};
@@ -34,7 +34,7 @@ impl Stage {
     /// The file cannot be read, or an option is for files of another kind.
     pub(super) fn open(py: Python<'_>, path: &Path, states: &[String], options: &StageOptions) -> Result<Self> {
         let states = states.iter().map(|text| state(text)).collect::<Result<Vec<_>>>()?;
-        if is_model(path) {
+        if gonio_models::is_model(path) {
             refuse_usd_options(path, options)?;
             let model = py.detach(|| gonio_models::read(path, &Options { states }))?;
             return Ok(Self::Model(Box::new(OpenModel { path: path.into(), loaded: loaded(model) })));
@@ -131,10 +131,15 @@ impl OpenModel {
     }
 }
 
+/// Whether a file is a model of a building, which need not have light of its own: honeybee's, Radiance's or IFC's.
+pub(super) fn is_model(path: &Path) -> bool {
+    gonio_models::is_model(path) || is_ifc(path)
+}
+
 /// Lights a model that has no light by the overcast sky, and says so; stages stay as they are.
 pub(super) fn light_model(path: &Path, loaded: &mut Loaded, is_quiet: bool) {
     let scene = &mut loaded.scene;
-    if !(is_model(path) || is_ifc(path)) || !scene.lights.is_empty() || scene.materials.iter().any(shines) {
+    if !is_model(path) || !scene.lights.is_empty() || scene.materials.iter().any(shines) {
         return;
     }
     add_default_sky(scene);

@@ -5,9 +5,9 @@ use super::{
     daylight,
     file::{check_ending, check_targets},
     measure::{author_grids, check_asked, draw, take_points, triple, watched},
-    messages::{list, print},
+    messages::{print, tell},
     progress::Reporter,
-    render::{MOST_WARNINGS, stage_options},
+    render::stage_options,
     stage::Stage,
 };
 use gonio::{
@@ -58,11 +58,7 @@ fn points(options: &SunlightOptions, axis: UpAxis) -> Result<Vec<Meter>> {
 }
 
 fn run(options: &SunlightOptions, loaded: &Loaded, task: &SunlightTask, interrupted: &AtomicBool) -> Result<i32> {
-    let tell = |diagnostics: &[gonio::Diagnostic]| {
-        if !options.quiet {
-            list(diagnostics, if options.stage.verbose { usize::MAX } else { MOST_WARNINGS });
-        }
-    };
+    let tell = |diagnostics: &[gonio::Diagnostic]| tell(&options.stage, options.quiet, diagnostics);
     tell(&loaded.diagnostics);
     let scene = &loaded.scene;
     let (meters, grids) = (&scene.meters, GridPoints::of_scene(scene)?);

@@ -3,14 +3,12 @@
 use super::{
     arguments::{Arguments, Command, ShowArgument, ViewOptions},
     daylight,
-    ifc::is_ifc,
     interrupt::INTERRUPTED,
     render::stage_options,
-    stage::Stage,
+    stage::{Stage, is_model},
 };
 use clap::Parser;
 use gonio::{Error, Result, Severity, compile::Bounds, output::ToneMap};
-use gonio_models::is_model;
 use gonio_usd::{Loaded, SampleTime, StageOptions, camera, context::UpAxis, framing::camera_light_of, view, view::complete};
 use pyo3::{prelude::*, types::PyDict};
 use serde_json::{Value, json};
@@ -44,11 +42,7 @@ pub fn view_scene(py: Python<'_>, words: &[String], folder: &Path, frame: Option
     let wanted = view::ViewOptions {
         camera: options.camera.clone(),
         camera_light: !options.disable_camera_light,
-        headlight: if is_model(&options.stage.stage) || is_ifc(&options.stage.stage) {
-            view::Headlight::Dome
-        } else {
-            view::Headlight::Camera
-        },
+        headlight: if is_model(&options.stage.stage) { view::Headlight::Dome } else { view::Headlight::Camera },
         data_window: false,
         ..view::ViewOptions::default()
     };

@@ -59,7 +59,7 @@ pub fn trace_eyes(scene: &Scene, eyes: &[Eye], task: &AnnualTask<'_>, execution:
     let view = |(eye, facing): (usize, &[f64; 3])| {
         let compass = axes.map(|axis| axis.iter().zip(facing).map(|(a, b)| a * b).sum::<f64>());
         let rounds = straight.iter().map(|round| &round[eye * patches..][..patches]);
-        SkyView::new(&division, compass, rounds, &crate::measure::glare::position_index)
+        SkyView::new(&division, compass, rounds)
     };
     let views = facings.iter().enumerate().map(view).collect();
     let group = Group {

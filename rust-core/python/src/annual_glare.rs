@@ -13,14 +13,11 @@ use gonio::{
     Error,
     annual::{AnnualTask, told},
     annual_glare::{Eye, trace_eyes},
-    measure::{Watch, glare::position_index},
+    measure::Watch,
     scene::Origin,
     sky::Frame,
 };
-use gonio_annual::{
-    Chunk, EyeGlare, GlareYear, Settings, Year, evaluate,
-    sky::{Light, Quantity, SkyMatrix, SkyOptions},
-};
+use gonio_annual::{EyeGlare, GlareYear, Settings, Year, sky::SkyOptions};
 use gonio_simd::Execution;
 use pyo3::prelude::*;
 use std::path::Path;
@@ -110,14 +107,8 @@ pub(crate) fn annual_glare(
         }
         let traced = trace_eyes(&scene, &eyes, &task, Execution::detect(), &mut Watch { previous: None, cancel: stop, progress })?;
         let settings = Settings { sky, memory: crate::annual::MEMORY, threads: gonio::threads::available_threads() };
-        let alone = SkyMatrix::new(&year, SkyOptions { factor: division, light: Light::WithoutSun, quantity: Quantity::Luminance, ..sky })
-            .map_err(told)?;
-        let mut found = GlareYear::new(traced.views, year.steps.len());
-        let mut take = |chunk: &Chunk<'_>| {
-            found.take(chunk, &alone, &schedule, (settings.threads, &position_index));
-            true
-        };
-        evaluate(&year, &schedule, &[traced.group], &settings, &mut take).map_err(told)?.ok_or(Error::Cancelled)?;
+        let found =
+            GlareYear::new(&year, &schedule, (traced.views, traced.group), &settings, &|| true).map_err(told)?.ok_or(Error::Cancelled)?;
         let reading = |(number, (eye, (glare, errors))): (usize, (Eye, (EyeGlare, Option<EyeGlare>)))| AnnualGlareReading {
             eye,
             glare,

@@ -31,9 +31,8 @@ pub struct Settings {
     pub threads: usize,
 }
 
-/// Calculates a grid by its groups of windows, whose light adds up. `take` sees every chunk, of all blocks and without each
-/// of them, and stops the calculation by `false`: then there is
-/// no result.
+/// Calculates a grid by its groups of windows, whose light adds up. `take` sees every chunk, of all blocks and without each of
+/// them, and stops the calculation by `false`: then there is no result.
 ///
 /// # Errors
 /// Coefficients that fit neither each other nor the year, and settings out of their range.

@@ -1,37 +1,30 @@
 //! `gonio annual-glare`.
 
-use super::{
-    inputs::{self, year},
-    pictures, settings, tell_doubts,
-};
+use super::{inputs::year, pictures, settings, tell_doubts};
 use crate::{
     arguments::AnnualGlareOptions,
     file::{check_targets, print_path, put},
     measure::{apply_settings, author_grids, triple, watched},
-    messages::{list, print},
+    messages::{print, tell},
     progress::Reporter,
-    render::{MOST_WARNINGS, stage_options},
+    render::stage_options,
     stage::Stage,
 };
 use gonio::{
     Diagnostic, Error, Result,
     annual::{AnnualTask, told},
     annual_glare::{Eye, EyesTraced, trace_eyes},
-    measure::{GridPoints, glare::position_index},
+    measure::GridPoints,
     scene::{Integrator, Origin, Scene},
     sky::Frame,
 };
-use gonio_annual::{
-    Chunk, EyeGlare, GlareYear, Schedule, Year, evaluate,
-    sky::{Light, Quantity, SkyMatrix, SkyOptions},
-    to_npy,
-};
+use gonio_annual::{EyeGlare, GlareYear, Schedule, Year, to_npy};
 use gonio_simd::Execution;
 use gonio_usd::{daylight::up_axis, meter::axes};
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 use std::{
-    path::Path,
+    path::{Path, PathBuf},
     sync::atomic::{AtomicBool, Ordering},
 };
 
@@ -39,8 +32,6 @@ use std::{
 const MOST_DRAWN: usize = 24;
 /// Metres from a grid's surface to eyes, where nothing says so: those of somebody who sits.
 const EYE_HEIGHT: f64 = 1.2;
-/// Share of the used time that EN 17037 lets a value be exceeded in.
-const EXCEEDED: f64 = 0.05;
 
 /// Traces the eyes and rates their year.
 pub(crate) fn annual_glare(py: Python<'_>, options: &AnnualGlareOptions, interrupted: &'static AtomicBool) -> Result<i32> {
@@ -58,14 +49,10 @@ pub(crate) fn annual_glare(py: Python<'_>, options: &AnnualGlareOptions, interru
     let eyes = eyes(options, &loaded.scene, up, ahead)?;
     let frame = Frame { up_axis: up_axis(loaded.info.up_axis), north_deg: options.year.north };
     py.detach(|| {
-        let tell = |diagnostics: &[Diagnostic]| {
-            if !options.quiet {
-                list(diagnostics, if options.stage.verbose { usize::MAX } else { MOST_WARNINGS });
-            }
-        };
+        let tell = |diagnostics: &[Diagnostic]| tell(&options.stage, options.quiet, diagnostics);
         tell(&loaded.diagnostics);
         if let Some(folder) = &options.year.output {
-            check_targets([folder.join("glare.npy"), folder.join("glare.csv")].iter())?;
+            check_targets(paths(folder, eyes.len()).iter())?;
         }
         let task = AnnualTask { year: &year, frame, factor: options.factor, blinds: None, closed: None };
         let follow = |watch: &mut gonio::measure::Watch<'_>| trace_eyes(&loaded.scene, &eyes, &task, Execution::detect(), watch);
@@ -79,34 +66,27 @@ pub(crate) fn annual_glare(py: Python<'_>, options: &AnnualGlareOptions, interru
 /// The eyes of the command line, and those over grids, which look around.
 fn eyes(options: &AnnualGlareOptions, scene: &Scene, up: [f64; 3], ahead: [f64; 3]) -> Result<Vec<Eye>> {
     let facings = options.facing.iter().map(|text| triple("facing", text)).collect::<Result<Vec<_>>>()?;
-    let around = around(up, ahead, options.directions.unwrap_or(4));
-    let named = |position: [f64; 3], facing: &[f64; 3], name: String| Eye { origin: Origin::new(&name), position, facing: *facing };
+    let directions = if facings.is_empty() { around(up, ahead, options.directions.unwrap_or(4)) } else { facings };
+    let looking = |name: &str, position: [f64; 3]| {
+        let eye = |(number, facing): (usize, &[f64; 3])| {
+            let name = if directions.len() > 1 { format!("{name} ({} of {})", number + 1, directions.len()) } else { name.to_owned() };
+            Eye { origin: Origin::new(name), position, facing: *facing }
+        };
+        directions.iter().enumerate().map(eye).collect::<Vec<_>>()
+    };
     let mut eyes = Vec::new();
     for text in &options.eye {
-        let directions = if options.directions.is_none() && !facings.is_empty() { &facings } else { &around };
-        let position = triple("eye", text)?;
-        eyes.extend(
-            directions.iter().enumerate().map(|(number, facing)| named(position, facing, view_name(text, number, directions.len()))),
-        );
+        eyes.extend(looking(text, triple("eye", text)?));
     }
     for grid in &scene.grids {
-        let points = GridPoints::new(scene, grid)?;
-        let directions = if options.directions.is_none() && !facings.is_empty() { &facings } else { &around };
-        for (place, position) in points.known().enumerate() {
-            let name = format!("{}/{}", grid.origin.name, place + 1);
-            eyes.extend(
-                directions.iter().enumerate().map(|(number, facing)| named(position, facing, view_name(&name, number, directions.len()))),
-            );
+        for (place, position) in GridPoints::new(scene, grid)?.known().enumerate() {
+            eyes.extend(looking(&format!("{}/{}", grid.origin.name, place + 1), position));
         }
     }
     if eyes.is_empty() {
         return Err(Error::setting("eye", "there is nobody who looks; name an eye with --eye X,Y,Z or a floor with --grid /Prim"));
     }
     Ok(eyes)
-}
-
-fn view_name(eye: &str, number: usize, count: usize) -> String {
-    if count > 1 { format!("{eye} ({} of {count})", number + 1) } else { eye.to_owned() }
 }
 
 /// Level directions, even around, the first one ahead.
@@ -127,16 +107,8 @@ fn rated(
     interrupted: &AtomicBool,
 ) -> Result<GlareYear> {
     let settings = settings(&options.year, options.work.threads)?;
-    let alone =
-        SkyOptions { factor: options.factor, light: Light::WithoutSun, quantity: Quantity::Luminance, ..inputs::sky(&options.year)? };
-    let sky = SkyMatrix::new(year, alone).map_err(told)?;
-    let mut glare = GlareYear::new(traced.views, year.steps.len());
-    let mut take = |chunk: &Chunk<'_>| {
-        glare.take(chunk, &sky, schedule, (settings.threads, &position_index));
-        !interrupted.load(Ordering::Relaxed)
-    };
-    evaluate(year, schedule, &[traced.group], &settings, &mut take).map_err(told)?.ok_or(Error::Cancelled)?;
-    Ok(glare)
+    let goes_on = || !interrupted.load(Ordering::Relaxed);
+    GlareYear::new(year, schedule, (traced.views, traced.group), &settings, &goes_on).map_err(told)?.ok_or(Error::Cancelled)
 }
 
 /// Tells and writes.
@@ -149,9 +121,8 @@ fn finish(options: &AnnualGlareOptions, (year, schedule): (&Year, &Schedule), ey
             }
         }
     }
-    let fit =
-        |limit: fn(&EyeGlare) -> f64| figures.iter().filter(|(found, _)| limit(found) <= EXCEEDED).count() as f64 / figures.len() as f64;
-    let spatial = [("0.35", fit(|found| found.above_035)), ("0.40", fit(|found| found.above_040)), ("0.45", fit(|found| found.above_045))];
+    let fit = |limit: usize| figures.iter().filter(|(found, _)| found.keeps()[limit]).count() as f64 / figures.len() as f64;
+    let spatial = [("0.35", fit(0)), ("0.40", fit(1)), ("0.45", fit(2))];
     if options.year.json {
         let eye = |(eye, (found, error)): (&Eye, &(EyeGlare, Option<EyeGlare>))| {
             json!({
@@ -203,33 +174,34 @@ fn line(eye: &Eye, found: &EyeGlare, error: Option<&EyeGlare>) -> String {
     )
 }
 
-/// Series, table, and the year of the first eyes as pictures.
+/// The files: series, table, and the year of the first eyes as pictures.
+fn paths(folder: &Path, eyes: usize) -> Vec<PathBuf> {
+    let pictures = (1..=eyes.min(MOST_DRAWN)).map(|number| format!("glare_{number}.png"));
+    ["glare.npy", "glare.csv"].map(str::to_owned).into_iter().chain(pictures).map(|name| folder.join(name)).collect()
+}
+
 fn written(
     folder: &Path,
     year: &Year,
     eyes: &[Eye],
     (glare, figures): (&GlareYear, &[(EyeGlare, Option<EyeGlare>)]),
-) -> Result<Vec<std::path::PathBuf>> {
-    let [series, table] = ["glare.npy", "glare.csv"].map(|name| folder.join(name));
+) -> Result<Vec<PathBuf>> {
+    let paths = paths(folder, eyes.len());
+    put(&paths[0], &to_npy(eyes.len(), year.steps.len(), glare.all_values()))?;
+    put(&paths[1], table(eyes, figures).as_bytes())?;
+    for (eye, path) in paths[2..].iter().enumerate() {
+        pictures::glare_carpet(path, year, glare.values(eye))?;
+    }
+    Ok(paths)
+}
 
-    put(&series, &to_npy(eyes.len(), year.steps.len(), glare.all_values()))?;
+/// A line for each view.
+fn table(eyes: &[Eye], figures: &[(EyeGlare, Option<EyeGlare>)]) -> String {
     let mut text = "view,x_m,y_m,z_m,facing_x,facing_y,facing_z,above_035,above_040,above_045,dgp_5_percent,en17037\n".to_owned();
-    for (eye, (found, _)) in eyes.iter().zip(figures) {
-        let [x, y, z] = eye.position;
-        let [fx, fy, fz] = eye.facing;
+    for (Eye { origin, position: [x, y, z], facing: [fx, fy, fz] }, (found, _)) in eyes.iter().zip(figures) {
         let EyeGlare { above_035, above_040, above_045, dgp_5_percent } = found;
-        text += &format!(
-            "\"{}\",{x},{y},{z},{fx},{fy},{fz},{above_035},{above_040},{above_045},{dgp_5_percent},{}\n",
-            eye.origin.name,
-            found.level()
-        );
+        let numbers = format!("{x},{y},{z},{fx},{fy},{fz},{above_035},{above_040},{above_045},{dgp_5_percent}");
+        text += &format!("\"{}\",{numbers},{}\n", origin.name, found.level());
     }
-    put(&table, text.as_bytes())?;
-    let mut all = vec![series, table];
-    for eye in 0..eyes.len().min(MOST_DRAWN) {
-        let path = folder.join(format!("glare_{}.png", eye + 1));
-        pictures::glare_carpet(&path, year, glare.values(eye))?;
-        all.push(path);
-    }
-    Ok(all)
+    text
 }

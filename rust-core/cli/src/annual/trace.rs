@@ -9,9 +9,9 @@ use crate::{
     arguments::AnnualOptions,
     file::{check_targets, print_path},
     measure::{apply_settings, author_grids, watched},
-    messages::{list, print},
+    messages::{print, tell},
     progress::Reporter,
-    render::{MOST_WARNINGS, stage_options, variants},
+    render::{stage_options, variants},
     stage::Stage,
 };
 use gonio::{
@@ -37,11 +37,7 @@ pub(crate) fn annual(py: Python<'_>, options: &AnnualOptions, interrupted: &'sta
         if options.closed_variant.is_empty() { None } else { Some(load(py, options, &options.closed_variant, interrupted)?.scene) };
     let frame = Frame { up_axis: up_axis(loaded.info.up_axis), north_deg: options.year.north };
     py.detach(|| {
-        let tell = |diagnostics: &[Diagnostic]| {
-            if !options.quiet {
-                list(diagnostics, if options.stage.verbose { usize::MAX } else { MOST_WARNINGS });
-            }
-        };
+        let tell = |diagnostics: &[Diagnostic]| tell(&options.stage, options.quiet, diagnostics);
         tell(&loaded.diagnostics);
         let (grids, left_out) = AnnualGrid::all(&loaded.scene)?;
         tell(&left_out);

@@ -5,9 +5,8 @@ use crate::{
     arguments::SampleArguments,
     daylight::number,
     interrupt::goes_on,
-    messages::list,
+    messages::{MOST_WARNINGS, list},
     progress::{Reporter, clock},
-    render::MOST_WARNINGS,
     share::share,
     stage::Stage,
 };

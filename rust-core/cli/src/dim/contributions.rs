@@ -3,8 +3,8 @@
 use super::{asked::Asked, groups::LightGroup, told::told};
 use crate::{
     arguments::MeasuringArguments,
-    measure::{evaluated, most_warnings},
-    messages::{list, say},
+    measure::evaluated,
+    messages::{say, tell},
     progress::Reporter,
 };
 use gonio::{
@@ -37,9 +37,7 @@ impl Run<'_> {
     /// Lists what was not told before.
     fn tell(&mut self, diagnostics: Vec<Diagnostic>) {
         let new: Vec<Diagnostic> = diagnostics.into_iter().filter(|one| !self.told.contains(one)).collect();
-        if !self.options.quiet {
-            list(&new, most_warnings(self.options));
-        }
+        tell(&self.options.stage, self.options.quiet, &new);
         self.told.extend(new);
     }
 }

@@ -10,10 +10,10 @@ use super::{
     drawing,
     file::{check_ending, check_targets, ending, put},
     interrupt::goes_on,
-    messages::list,
     messages::print,
+    messages::tell,
     progress::Reporter,
-    render::{MOST_WARNINGS, stage_options},
+    render::stage_options,
     share::share,
     stage::Stage,
 };
@@ -100,9 +100,7 @@ fn run(
     {
         return Err(Error::scene(&first.origin, first.message.clone()));
     }
-    if !options.quiet {
-        list(&diagnostics, if options.stage.verbose { usize::MAX } else { MOST_WARNINGS });
-    }
+    tell(&options.stage, options.quiet, &diagnostics);
     write(options, &reading, &reduced)?;
     if options.json {
         print(&json::as_json(options, &reading, &reduced, &diagnostics).to_string());

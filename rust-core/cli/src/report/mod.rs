@@ -18,10 +18,10 @@ use super::{
     falsecolor,
     file::{check_ending, check_targets, print_path, put},
     measure::{apply_settings, author_grids, evaluated},
-    messages::list,
     messages::say,
+    messages::tell,
     progress::Reporter,
-    render::{MOST_WARNINGS, stage_options},
+    render::stage_options,
     stage::{Stage, light_model},
 };
 use gonio::{
@@ -78,9 +78,7 @@ fn run(
     let (pictures, compiled) = pictures::pictures(options, &mut loaded, &cameras, denoiser, interrupted, &mut diagnostics)?;
     let measured = measured(options, &mut loaded, compiled.as_deref(), interrupted, &mut diagnostics)?;
     let power = power(options, &loaded, compiled, &measured, interrupted)?;
-    if !options.quiet {
-        list(&diagnostics, if options.stage.verbose { usize::MAX } else { MOST_WARNINGS });
-    }
+    tell(&options.stage, options.quiet, &diagnostics);
     let schedule = Schedule::new(&loaded);
     let mut page = Page::new(&Head::new(options, today));
     schedule.write(&mut page);

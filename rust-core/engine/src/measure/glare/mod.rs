@@ -2,7 +2,6 @@
 
 mod cluster;
 mod coverage;
-mod position;
 mod source;
 mod view;
 
@@ -10,8 +9,8 @@ mod view;
 mod tests;
 
 pub use coverage::{Coverage, LARGEST};
+pub use gonio_annual::position_index;
 pub use gonio_formats::photometry::position_index as cie_position_index;
-pub use position::position_index;
 pub use source::{GlareSource, Threshold};
 pub use view::{EyeView, PixelView};
 
@@ -145,19 +144,15 @@ impl Glare {
         coverage
     }
 
-    /// Daylight glare probability (Wienold and Christoffersen 2006): 5.87·10⁻⁵ E_v + 0.0918 log₁₀(1 + Σ L² ω / (E_v^1.87 P²)) + 0.16, at most 1.
-    /// Made for 380 lx and more at the eye and values from 0.2 to 0.8. None where the illuminance at the eye is not known.
+    /// Daylight glare probability ([`gonio_annual::dgp`]). Made for 380 lx and more at the eye and values from 0.2 to 0.8. None where the illuminance at the eye
+    /// is not known.
     pub fn dgp(&self) -> Option<f64> {
-        let illuminance = self.eye_illuminance?;
-        let of_sources = if illuminance > 0.0 { self.weighted_sum() / illuminance.powf(1.87) } else { 0.0 };
-        Some((5.87e-5 * illuminance + 0.0918 * (1.0 + of_sources).log10() + 0.16).min(1.0))
+        self.eye_illuminance.map(|illuminance| gonio_annual::dgp(illuminance, self.weighted_sum()))
     }
 
-    /// The same with Wienold's correction for little light, as evalglare has it below 1000 lx: times e^(0.024 E_v − 4) / (1 + e^(0.024 E_v − 4)).
+    /// The same with Wienold's correction for little light.
     pub fn dgp_low_light(&self) -> Option<f64> {
-        let illuminance = self.eye_illuminance?;
-        let exponential = (0.024 * illuminance.min(1000.0) - 4.0).exp();
-        self.dgp().map(|dgp| if illuminance < 1000.0 { dgp * exponential / (1.0 + exponential) } else { dgp })
+        self.eye_illuminance.map(|illuminance| gonio_annual::dgp_low_light(illuminance, self.weighted_sum()))
     }
 
     /// Σ L² ω / P² over the sources before the eye.

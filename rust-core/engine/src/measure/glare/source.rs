@@ -4,7 +4,7 @@ use super::{
     GlareOptions,
     cluster::{Pixel, clusters},
     coverage::{is_below, weight},
-    position::position_index,
+    position_index,
     view::{EyeView, PixelView},
 };
 use gonio_formats::photometry::NoIndex;

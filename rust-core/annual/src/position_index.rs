@@ -5,7 +5,7 @@ const MOST: f64 = 16.0;
 
 /// By direction in the eye's frame (right, up, ahead; unit), as evalglare has it since version 2. Above the line of sight Guth's index in the form of the
 /// IESNA handbook. Below it that of Iwata and Tokura in Kikuchi's coordinates: tan β = tan σ √(1 + 0.3225 cos² τ), ln P = 6.49·10⁻³ β + 21·10⁻⁵ β².
-/// Unified glare ratings have CIE 117's table instead ([`super::cie_position_index`]).
+/// Unified glare ratings have CIE 117's table instead.
 pub fn position_index([right, up, ahead]: [f64; 3]) -> f64 {
     if ahead <= 0.0 {
         return MOST;
