@@ -4,11 +4,8 @@ import json
 
 import numpy as np
 import pytest
+from wea_years import HOUR, write_wea
 
-MONTHS = (31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31)
-HEAD = "place Here\nlatitude 49.52\nlongitude -8.55\ntime_zone -15\nsite_elevation 96\nweather_data_file_units 3\n"
-DATES = [(month, day, hour) for month, days in enumerate(MONTHS, 1) for day in range(1, days + 1) for hour in range(24)]
-HOUR = np.arange(8760) % 24 + 0.5
 SQUARE = """def Mesh "{name}" (prepend apiSchemas = ["MaterialBindingAPI"])
 {{
     point3f[] points = {points}
@@ -49,9 +46,8 @@ def stage(tmp_path, more=""):
 def weather(tmp_path, diffuse=12000.0, direct=0.0):
     """A file in lux, the same from 8 to 16 o'clock of every day, dark otherwise."""
     light = (HOUR > 8) & (HOUR < 16)
-    rows = zip(DATES, np.where(light, direct, 0.0), np.where(light, diffuse, 0.0), strict=True)
     path = tmp_path / "year.wea"
-    path.write_text(HEAD + "".join(f"{month} {day} {hour}.500 {sun:.0f} {sky:.0f}\n" for (month, day, hour), sun, sky in rows))
+    write_wea(path, np.where(light, direct, 0.0), np.where(light, diffuse, 0.0))
     return path, light
 
 

@@ -5,11 +5,8 @@ import math
 
 import numpy as np
 import pytest
+from wea_years import HOUR, write_wea
 
-MONTHS = (31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31)
-HEAD = "place Here\nlatitude 49.52\nlongitude -8.55\ntime_zone -15\nsite_elevation 96\nweather_data_file_units 3\n"
-DATES = [(month, day, hour) for month, days in enumerate(MONTHS, 1) for day in range(1, days + 1) for hour in range(24)]
-HOUR = np.arange(8760) % 24 + 0.5
 STAGE = '#usda 1.0\n(\n    upAxis = "{up}"\n    metersPerUnit = 1\n)\n'
 MESH = """def Mesh "{name}" (prepend apiSchemas = ["MaterialBindingAPI"])
 {{
@@ -69,8 +66,7 @@ def weather(tmp_path_factory):
     steps = np.arange(8760)
     direct, diffuse = np.where(light, steps * 37 % 13 * 6000, 0), np.where(light, 6000 + steps * 53 % 11 * 3500, 0)
     path = tmp_path_factory.mktemp("weather") / "year.wea"
-    rows = zip(DATES, direct, diffuse, strict=True)
-    path.write_text(HEAD + "".join(f"{month} {day} {hour}.500 {sun:.0f} {sky:.0f}\n" for (month, day, hour), sun, sky in rows))
+    write_wea(path, direct, diffuse)
     return path, direct.astype(float), diffuse.astype(float)
 
 
