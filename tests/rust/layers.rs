@@ -42,7 +42,7 @@ const CRATES: [(&str, &[&str]); 23] = [
     ("spectrum", &["formats"]),
     ("volume", &[]),
     ("mesh", &[]),
-    ("emergency", &["formats"]),
+    ("norms", &["formats"]),
     ("road", &["formats"]),
     ("sky", &[]),
     ("annual", &["formats", "simd", "sky"]),

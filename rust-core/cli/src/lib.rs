@@ -15,7 +15,6 @@ mod daylight;
 mod denoise;
 mod dim;
 mod drawing;
-mod emergency;
 mod explain;
 mod falsecolor;
 mod farm;
@@ -35,6 +34,7 @@ mod map;
 mod measure;
 mod merge;
 mod messages;
+mod norms;
 mod output;
 mod photometry;
 mod products;
@@ -116,7 +116,8 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
         Command::Sensor(options) => py.detach(|| sensor::sensor(&options)),
         Command::Bsdf(options) => bsdf::bsdf(py, &options, &INTERRUPTED),
         Command::Measure(options) => measure::measure(py, &options, &INTERRUPTED),
-        Command::Emergency(options) => emergency::emergency(py, &options, &INTERRUPTED),
+        Command::Emergency(options) => norms::emergency(py, &options, &INTERRUPTED),
+        Command::Sports(options) => norms::sports(py, &options, &INTERRUPTED),
         Command::Dim(options) => dim::dim(py, &options, &INTERRUPTED),
         Command::Goniometer(options) => goniometer::goniometer(py, &options, &INTERRUPTED),
         Command::Map(options) => map::map(py, &options, &INTERRUPTED),

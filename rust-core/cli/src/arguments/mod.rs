@@ -25,6 +25,7 @@ mod render;
 mod report;
 mod road;
 mod spectrum;
+mod sports;
 mod stage;
 mod sunlight;
 mod texture;
@@ -56,6 +57,7 @@ pub(super) use render::{FilterArgument, HeadlightArgument, RenderOptions};
 pub(super) use report::ReportOptions;
 pub(super) use road::RoadOptions;
 pub(super) use spectrum::{SensorOptions, SpectrumOptions};
+pub(super) use sports::SportsOptions;
 pub(super) use stage::{ComplexityArgument, StageArguments};
 pub(super) use sunlight::SunlightOptions;
 pub(super) use texture::TextureArguments;
@@ -75,6 +77,7 @@ use measure::MEASURE_EXAMPLES;
 use report::REPORT_EXAMPLES;
 use road::ROAD_EXAMPLES;
 use spectrum::{SENSOR_EXAMPLES, SPECTRUM_EXAMPLES};
+use sports::SPORTS_EXAMPLES;
 use sunlight::SUNLIGHT_EXAMPLES;
 use verdict::VERDICT_EXAMPLES;
 use view::VIEW_EXAMPLES;
@@ -206,9 +209,15 @@ pub(super) enum Command {
     /// building holds throws shadows. 'gonio verdict' compares the figures with your own requirements.
     #[command(after_long_help = EMERGENCY_EXAMPLES)]
     Emergency(Box<EmergencyOptions>),
+    /// Calculate sports lighting as EN 12193 has it: illuminances on fields and towards cameras, their uniformities, and glare (GR, CIE 112).
+    ///
+    /// A TOML file says where people play, who films and who may be dazzled. 'gonio verdict' compares the figures with your own requirements.
+    #[command(after_long_help = SPORTS_EXAMPLES)]
+    Sports(Box<SportsOptions>),
     /// Say whether what was measured meets what is required, line by line and by the standard errors: met, not met, or within the error.
     ///
-    /// Requirements are a TOML file of your own numbers; figures come from 'gonio measure', 'gonio annual', 'gonio road' and 'gonio emergency' with --json. Writes the
+    /// Requirements are a TOML file of your own numbers; figures come from 'gonio measure', 'gonio annual', 'gonio road', 'gonio emergency' and
+    /// 'gonio sports' with --json. Writes the
     /// planner's sheet as HTML or PDF. It is no certificate of conformity with a standard.
     #[command(after_long_help = VERDICT_EXAMPLES)]
     Verdict(VerdictOptions),

@@ -51,8 +51,10 @@ struct Part {
     distance: f32,
     /// L² ω; 0 of what is dark.
     strength: f64,
-    /// At the eye, lx; 0 of what is not ahead.
-    illuminance: f64,
+    /// At the eye across the part's way, lx.
+    light: f64,
+    /// Of the way to the line of sight; 0 of what is not ahead.
+    cosine: f64,
     /// In sr; 0 of points.
     solid_angle: f64,
     /// 1 / p², or why the part has no position index.
@@ -100,10 +102,21 @@ impl Eye {
             return Share { tabular: Some(0.0), ..Share::default() };
         };
         coverage.count(brightest.weight.err(), solid_angle(&parts));
-        parts.iter().for_each(|part| coverage.add_light(part.weight.err(), part.illuminance));
+        parts.iter().for_each(|part| coverage.add_light(part.weight.err(), part.illuminance()));
         let seen: f64 = parts.iter().map(|part| part.strength * part.weight.unwrap_or(0.0)).sum();
         let small = if area > 0.0 { (area / SMALL).min(1.0) } else { 1.0 };
         Share { sum: seen * small, tabular: (area > 0.0 || seen == 0.0).then_some(seen), is_small: seen > 0.0 && area < SMALL }
+    }
+
+    /// What comes straight to it from a luminaire's parts that nothing opaque hides, whichever way it looks: unit directions, and lx across them.
+    pub(super) fn straight(&self, luminaire: &Luminaire, scene: &CompiledScene) -> Vec<([f64; 3], f64)> {
+        let place = subtract(self.position, scene.tables.origin).map(|x| x as f32);
+        let mut parts: Vec<Part> = luminaire.emitters.iter().flat_map(|emitter| self.parts(emitter, place)).collect();
+        parts.retain(|part| part.light > 0.0);
+        if luminaire.casts_shadow {
+            retain_seen(&mut parts, place, scene);
+        }
+        parts.iter().map(|part| (part.direction.map(f64::from), part.light)).collect()
     }
 
     /// A direction to the right, up and ahead.
@@ -131,24 +144,29 @@ impl Eye {
         let in_view = self.in_view(direction.map(f64::from));
         let cosine = in_view[2].max(0.0);
         let dark =
-            Part { direction, distance: sample.distance.0, strength: 0.0, illuminance: 0.0, solid_angle: 0.0, weight: weight(in_view) };
+            Part { direction, distance: sample.distance.0, strength: 0.0, light: 0.0, cosine, solid_angle: 0.0, weight: weight(in_view) };
         if pdf <= 0.0 {
             return dark;
         }
         if sample.delta.0 {
             // Its illuminance is I / r².
-            return Part { strength: (luminance * distance).powi(2) / SMALL, illuminance: luminance * cosine, ..dark };
+            return Part { strength: (luminance * distance).powi(2) / SMALL, light: luminance, ..dark };
         }
         let solid_angle = 1.0 / (pdf * count);
         let light = luminance * solid_angle;
-        Part { strength: luminance * light, illuminance: light * cosine, solid_angle, ..dark }
+        Part { strength: luminance * light, light, solid_angle, ..dark }
     }
 }
 
 impl Part {
+    /// On the plane of the eye, lx.
+    fn illuminance(&self) -> f64 {
+        self.light * self.cosine
+    }
+
     /// Its illuminance if it is left out.
     fn light_left_out(&self) -> f64 {
-        if self.weight.is_err() { self.illuminance } else { 0.0 }
+        if self.weight.is_err() { self.illuminance() } else { 0.0 }
     }
 }
 

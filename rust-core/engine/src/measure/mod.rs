@@ -17,6 +17,7 @@ mod room;
 mod sense;
 mod sensing;
 mod spectral;
+mod straight;
 mod ugr;
 mod vector;
 mod watch;
@@ -31,6 +32,7 @@ pub use points::{GridPoints, MOST_POINTS};
 pub use reading::{GridReading, MeterReading, Reading, SensorGrid, SmallSources, Summary};
 pub use room::Room;
 pub use spectral::ColourReading;
+pub use straight::{StraightLight, straight_light};
 pub use watch::{MOST_BOUNCES, Watch};
 
 use crate::{

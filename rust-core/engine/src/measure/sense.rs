@@ -180,6 +180,11 @@ impl Plan {
         Self { sensors, discs: Discs::new(discs), light_paths, rough, in_part }
     }
 
+    /// Whether light comes to the probes that none of their own paths finds.
+    pub(super) fn is_brought(&self) -> bool {
+        self.light_paths.is_some() || self.rough || self.in_part
+    }
+
     /// Measures in the scene that the plan was made for, or as that is in a band of wavelengths.
     pub(super) fn follow(
         &self,

@@ -5,9 +5,11 @@ mod area;
 mod colour;
 mod emergency;
 mod grids;
+mod lit;
 mod modelling;
 mod object;
 mod road;
+mod sports;
 mod table;
 
 pub(crate) use area::{Area, Figure};
@@ -44,7 +46,7 @@ pub struct Measured {
 }
 
 impl Measured {
-    /// Reads what `gonio measure`, `gonio annual`, `gonio annual-metrics`, `gonio road` and `gonio emergency` print with `--json`.
+    /// Reads what `gonio measure`, `gonio annual`, `gonio annual-metrics`, `gonio road`, `gonio emergency` and `gonio sports` print with `--json`.
     ///
     /// # Errors
     /// Bytes that are no JSON, or not that of one of these commands, with the file and what was found.
@@ -95,6 +97,8 @@ fn areas(bytes: &[u8], file: usize) -> Found<Vec<Area>> {
         Ok(road::read(&whole, file))
     } else if has("routes") && has("luminaires") {
         emergency::read(&whole, file)
+    } else if has("fields") && has("observers") {
+        sports::read(&whole, file)
     } else {
         let found = listed(whole.keys().map(String::as_str));
         let found = if found.is_empty() { "nothing was found".to_owned() } else { format!("'{found}' were found") };

@@ -1,18 +1,10 @@
 //! Where light is measured.
 
-use crate::plan::{Area, Plan, Route, distance};
+use super::plan::{Area, Plan, Route};
+use crate::{Spot, plan::distance};
 
 /// Parts of the central band's width across which points lie, from its middle.
 const ACROSS: [f64; 5] = [0.0, -0.25, -0.125, 0.125, 0.25];
-
-/// A point and the normal of the plane that is lit there.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spot {
-    /// In the scene's space, metres.
-    pub position: [f64; 3],
-    /// Of length 1 on floors.
-    pub normal: [f64; 3],
-}
 
 impl Plan {
     /// All points: those of routes (each the centre line, then the lines beside it), of areas, and places, in the plan's order. `up` is a unit vector

@@ -1,10 +1,8 @@
 //! The file that says where people flee, and what the lamps still give.
 
+use crate::plan::{distance, few, one, read, within};
 use gonio_formats::FormatError;
 use serde::Deserialize;
-
-/// The most points of a route or an area.
-const MOST_POINTS: f64 = 200_000.0;
 
 /// What a plan's file says; lengths are metres in the scene's space.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -83,9 +81,6 @@ pub struct Place {
     pub facing: [f64; 3],
 }
 
-fn one() -> f64 {
-    1.0
-}
 fn height() -> f64 {
     0.02
 }
@@ -108,7 +103,7 @@ impl Plan {
     /// # Errors
     /// What is no such TOML, with its line, numbers out of their range, a plan without anything to measure.
     pub fn read(text: &str) -> Result<Self, FormatError> {
-        let plan: Self = toml::from_str(text).map_err(|error| told(text, &error))?;
+        let plan: Self = read(text)?;
         plan.check().map_err(FormatError::whole)?;
         Ok(plan)
     }
@@ -160,30 +155,5 @@ impl Area {
             (at().fold(f64::MIN, f64::max) - at().fold(f64::MAX, f64::min)) / self.spacing + 1.0
         };
         few(size(0) * size(1) * size(2)).map_err(of)
-    }
-}
-
-fn within(name: &str, value: f64, [least, most]: [f64; 2]) -> Result<(), String> {
-    if (least..=most).contains(&value) { Ok(()) } else { Err(format!("{name} is {value}, expected {least} to {most}")) }
-}
-
-fn few(points: f64) -> Result<(), String> {
-    if points <= MOST_POINTS {
-        Ok(())
-    } else {
-        Err(format!("about {points:.0} points, expected {MOST_POINTS:.0} at most; a wider spacing has fewer"))
-    }
-}
-
-pub(crate) fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
-}
-
-/// What TOML says of a file, with its line.
-fn told(text: &str, error: &toml::de::Error) -> FormatError {
-    let problem = error.message().lines().collect::<Vec<_>>().join(" ");
-    match error.span() {
-        Some(span) => FormatError::line(1 + text.bytes().take(span.start).filter(|byte| *byte == b'\n').count() as u64, problem),
-        None => FormatError::whole(problem),
     }
 }

@@ -1,22 +1,8 @@
 //! What the readings come to.
 
-use crate::{plan::Plan, spots::Spot};
-use serde_json::{Value, json};
-
-/// An illuminance, lx, and its standard error.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Reading {
-    /// The illuminance.
-    pub lx: f64,
-    /// Its standard error.
-    pub error: f64,
-}
-
-impl Reading {
-    fn times(self, factor: f64) -> Self {
-        Self { lx: self.lx * factor, error: self.error * factor }
-    }
-}
+use super::plan::Plan;
+use crate::lit::{Lit, Reading, Spot};
+use serde_json::{Map, Value, json};
 
 /// A luminaire as somebody who flees sees it.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,52 +15,14 @@ pub struct Lamp {
     pub peak_cd: f64,
 }
 
-/// The readings along a line or in an area.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Lit {
-    pub(crate) spots: Vec<Spot>,
-    pub(crate) readings: Vec<Reading>,
+/// The greatest over the least (EN 1838 allows 40 : 1), with its standard error; none where the least is no light.
+pub(crate) fn max_to_min(lit: &Lit) -> Option<[f64; 2]> {
+    let [least, most, _] = lit.ends()?;
+    most.over(least)
 }
 
-impl Lit {
-    fn new((spots, readings): (&[Spot], &[Reading])) -> Self {
-        Self { spots: spots.to_vec(), readings: readings.to_vec() }
-    }
-
-    /// The least, the greatest, and their mean; nothing of no points.
-    pub(crate) fn ends(&self) -> Option<[Reading; 3]> {
-        let by = |a: &&Reading, b: &&Reading| a.lx.total_cmp(&b.lx);
-        let (least, most) = (self.readings.iter().min_by(by)?, self.readings.iter().max_by(by)?);
-        let count = self.readings.len() as f64;
-        let mean = self.readings.iter().map(|reading| reading.lx).sum::<f64>() / count;
-        // Errors of points are independent.
-        let error = self.readings.iter().map(|reading| reading.error.powi(2)).sum::<f64>().sqrt() / count;
-        Some([*least, *most, Reading { lx: mean, error }])
-    }
-
-    /// The greatest over the least (EN 1838 allows 40 : 1), with its standard error; none where the least is no light.
-    pub(crate) fn max_to_min(&self) -> Option<[f64; 2]> {
-        let [least, most, _] = self.ends().filter(|[least, ..]| least.lx > 0.0)?;
-        let ratio = most.lx / least.lx;
-        Some([ratio, ratio * (most.error / most.lx).hypot(least.error / least.lx)])
-    }
-
-    fn json(&self) -> serde_json::Map<String, Value> {
-        let mut found = serde_json::Map::new();
-        if let Some([least, most, mean]) = self.ends() {
-            for (key, reading) in [("min", least), ("max", most), ("average", mean)] {
-                found.insert(format!("{key}_lx"), json!(reading.lx));
-                found.insert(format!("{key}_error_lx"), json!(reading.error));
-            }
-        }
-        let ratio = self.max_to_min();
-        found.insert("max_to_min".into(), json!(ratio.map(|[ratio, _]| ratio)));
-        found.insert("max_to_min_error".into(), json!(ratio.map(|[_, error]| error)));
-        let point =
-            |(spot, reading): (&Spot, &Reading)| json!({ "position_m": spot.position, "lx": reading.lx, "standard_error": reading.error });
-        found.insert("points".into(), self.spots.iter().zip(&self.readings).map(point).collect());
-        found
-    }
+fn json_of(lit: &Lit) -> Map<String, Value> {
+    lit.json(&[("max_to_min", max_to_min(lit))])
 }
 
 /// Everything that a plan asks for.
@@ -114,9 +62,9 @@ impl Figures {
 
     /// For machines; `docs/emergency.md` lists the keys.
     pub fn json(&self) -> Value {
-        let route = |(name, centre, band): &(String, Lit, Lit)| json!({ "name": name, "centre": centre.json(), "band": band.json() });
+        let route = |(name, centre, band): &(String, Lit, Lit)| json!({ "name": name, "centre": json_of(centre), "band": json_of(band) });
         let area = |(name, lit): &(String, Lit)| {
-            let mut found = lit.json();
+            let mut found = json_of(lit);
             found.insert("name".into(), json!(name));
             Value::Object(found)
         };

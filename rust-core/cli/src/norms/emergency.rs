@@ -1,8 +1,8 @@
 //! `gonio emergency`.
 
-use super::{
+use super::{leave_burning, measure_at, plan, readings};
+use crate::{
     arguments::EmergencyOptions,
-    file,
     measure::{apply_settings, evaluated},
     messages::{print, tell},
     progress::Reporter,
@@ -10,82 +10,42 @@ use super::{
     stage::Stage,
 };
 use gonio::{
-    Error, Result,
+    Result,
     compile::luminous_intensities,
-    scene::{Integrator, Light, Meter, Origin, Scene},
+    scene::{Integrator, Scene},
 };
-use gonio_emergency::{Figures, Lamp, Plan, Reading, Spot, lines};
+use gonio_norms::emergency::{Figures, Lamp, Plan, lines};
 use gonio_usd::meter::axes;
 use pyo3::prelude::*;
 use std::{collections::BTreeMap, sync::atomic::AtomicBool};
 
-/// The longest plan in bytes.
-const LONGEST_PLAN: u64 = 1 << 24;
 /// Degrees between directions in which intensities are asked for, across and down.
 const STEPS_DEG: [f64; 2] = [5.0, 1.0];
 
 /// Measures what the plan asks for and tells what it comes to.
-pub(super) fn emergency(py: Python<'_>, options: &EmergencyOptions, interrupted: &'static AtomicBool) -> Result<i32> {
-    let name = &options.plan;
-    let bytes = file::read(name, LONGEST_PLAN, "plan")?;
-    let plan = Plan::read(&String::from_utf8_lossy(&bytes)).map_err(|error| Error::in_file(name, &error))?;
+pub(crate) fn emergency(py: Python<'_>, options: &EmergencyOptions, interrupted: &'static AtomicBool) -> Result<i32> {
+    let plan = plan(&options.plan, Plan::read)?;
     let stage_options = stage_options(&options.stage)?;
     let stage = Stage::open(py, &options.stage.stage, &options.stage.state, &stage_options)?;
     let mut loaded = stage.load(py, &stage_options, interrupted)?;
     let [up, _] = axes(loaded.info.up_axis);
     let spots = plan.spots(up);
     let scene = &mut loaded.scene;
-    let lamps = put_out_others(scene, &plan)?;
-    scene.meters = spots.iter().map(meter).collect();
-    scene.grids.clear();
+    let lamps = leave_burning(scene, &plan.groups, &plan.lights, "in an emergency")?;
+    measure_at(scene, &spots);
     // What surfaces send on does not count (EN 1838).
     apply_settings(scene, (options.spp, None), Integrator::Direct, (&options.work, &options.textures));
     tell(&options.stage, options.quiet, &loaded.diagnostics);
     let (dark, lamps) = (scene.without_emission(), seen(scene, &lamps, &plan, up));
     let found = py.detach(|| evaluated(&dark, None, Reporter::new(options.quiet), interrupted))?;
     tell(&options.stage, options.quiet, &found.diagnostics);
-    let reading = |found: &gonio::measure::MeterReading| Reading { lx: found.reading.value, error: found.reading.standard_error };
-    let readings: Vec<Reading> = found.meters.iter().map(reading).collect();
-    let figures = Figures::new(&plan, &spots, &readings, lamps);
+    let figures = Figures::new(&plan, &spots, &readings(&found), lamps);
     if options.json {
         print(&figures.json().to_string());
     } else {
         lines(&figures).iter().for_each(|line| print(line));
     }
     Ok(0)
-}
-
-fn meter(spot: &Spot) -> Meter {
-    let [x, y, z] = spot.position;
-    Meter { origin: Origin::new(format!("{x:.3},{y:.3},{z:.3}")), position: spot.position, normal: spot.normal, ..Meter::default() }
-}
-
-/// Leaves the plan's lights alone burning and gives their numbers.
-fn put_out_others(scene: &mut Scene, plan: &Plan) -> Result<Vec<usize>> {
-    let everything = plan.groups.is_empty() && plan.lights.is_empty();
-    let burns = |light: &Light| {
-        let is_lamp = !light.portal && !light.shape.is_at_infinity();
-        is_lamp && (everything || plan.groups.contains(&light.group) || plan.lights.iter().any(|path| light.origin.is_below(path)))
-    };
-    let groups = scene.light_groups();
-    if let Some(unknown) = plan.groups.iter().find(|group| !groups.contains(group)) {
-        return Err(Error::setting("plan", format!("there is no light group '{unknown}', expected one of {}", groups.join(", "))));
-    }
-    if let Some(unknown) = plan.lights.iter().find(|path| !scene.lights.iter().any(|light| light.origin.is_below(path))) {
-        return Err(Error::setting("plan", format!("no light of the stage is at or under '{unknown}'")));
-    }
-    let mut burning = Vec::new();
-    for (number, light) in scene.lights.iter_mut().enumerate() {
-        if burns(light) {
-            burning.push(number);
-        } else {
-            light.dimming = 0.0;
-        }
-    }
-    if burning.is_empty() {
-        return Err(Error::setting("plan", "no light of the stage shines in an emergency; lights at infinity do not count"));
-    }
-    Ok(burning)
 }
 
 /// Luminaires with their height above the lowest floor of the plan and their greatest intensity within its angles; lights of one prim are one.

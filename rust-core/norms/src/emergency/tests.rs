@@ -1,6 +1,7 @@
 //! Plans, their points, and what readings come to.
 
 use super::*;
+use crate::Reading;
 
 const UP: [f64; 3] = [0.0, 0.0, 1.0];
 

@@ -1,6 +1,7 @@
 //! The figures as text.
 
-use crate::figures::{Figures, Lit, Reading};
+use super::figures::{Figures, max_to_min};
+use crate::lit::Lit;
 
 /// Lines for a terminal.
 pub fn lines(found: &Figures) -> Vec<String> {
@@ -14,7 +15,7 @@ pub fn lines(found: &Figures) -> Vec<String> {
         lines.push(format!("open area {name}"));
         lines.extend(of_lit("within its border", lit));
     }
-    lines.extend(found.places.iter().map(|(name, reading)| format!("place {name}: {}", told(*reading))));
+    lines.extend(found.places.iter().map(|(name, reading)| format!("place {name}: {}", reading.told())));
     let [from, to] = found.glare_deg;
     if !found.lamps.is_empty() {
         lines.push(format!("greatest intensity from {from}° to {to}° above nadir, with all flux"));
@@ -25,13 +26,9 @@ pub fn lines(found: &Figures) -> Vec<String> {
 
 fn of_lit(name: &str, lit: &Lit) -> Vec<String> {
     let Some([least, most, mean]) = lit.ends() else { return vec![format!("  {name}: no point lies within")] };
-    let ratio = lit.max_to_min().map_or("without light at a point".to_owned(), |[ratio, error]| format!("{ratio:.1} : 1 (± {error:.1})"));
+    let ratio = max_to_min(lit).map_or("without light at a point".to_owned(), |[ratio, error]| format!("{ratio:.1} : 1 (± {error:.1})"));
     vec![
-        format!("  {name}, {} points: least {}, greatest {}, mean {}", lit.readings.len(), told(least), told(most), told(mean)),
+        format!("  {name}, {} points: least {}, greatest {}, mean {}", lit.readings.len(), least.told(), most.told(), mean.told()),
         format!("    greatest to least: {ratio}"),
     ]
-}
-
-fn told(reading: Reading) -> String {
-    format!("{:.2} lx ± {:.2}", reading.lx, reading.error)
 }

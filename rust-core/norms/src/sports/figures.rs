@@ -1,0 +1,129 @@
+//! What the readings come to.
+
+use super::{
+    glare::{Rating, Source, worst},
+    plan::{EYES, Plan},
+};
+use crate::lit::{Lit, Reading, Spot};
+use serde_json::{Value, json};
+
+/// A field's light on its ground and towards cameras.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct OfField {
+    pub(crate) name: String,
+    pub(crate) counts: [u32; 2],
+    pub(crate) ground: Lit,
+    /// By camera.
+    pub(crate) filmed: Vec<(String, Lit)>,
+    /// At its points, where it is asked for.
+    pub(crate) glare: Vec<([f64; 3], Rating)>,
+}
+
+/// Everything that a plan asks for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figures {
+    pub(crate) fields: Vec<OfField>,
+    /// By name.
+    pub(crate) observers: Vec<(String, Rating)>,
+    pub(crate) factor: f64,
+    pub(crate) reflectance: f64,
+}
+
+/// The least over the greatest and over the mean, U1 and U2 of EN 12193; none without light.
+pub(crate) fn uniformities(lit: &Lit) -> [Option<[f64; 2]>; 2] {
+    lit.ends().map_or([None; 2], |[least, most, mean]| [least.over(most), least.over(mean)])
+}
+
+impl Figures {
+    /// Of readings at a plan's spots with new lamps, in their order, and the light that comes straight to its eyes.
+    pub fn new(plan: &Plan, up: [f64; 3], readings: &[Reading], sources: &[Vec<Source>]) -> Self {
+        let spots = plan.spots(up);
+        let mut first = 0;
+        let mut take = |count: u32| {
+            let range = first..first + count as usize;
+            first = range.end;
+            let kept: Vec<Reading> = readings[range.clone()].iter().map(|reading| reading.times(plan.maintenance_factor)).collect();
+            Lit::new((&spots[range] as &[Spot], &kept))
+        };
+        let mut fields: Vec<OfField> = Vec::new();
+        for field in &plan.fields {
+            let counts = field.counts();
+            let count = counts[0] * counts[1];
+            let ground = take(count);
+            let filmed =
+                plan.cameras.iter().filter(|camera| camera.films(field)).map(|camera| (camera.name.clone(), take(count))).collect();
+            fields.push(OfField { name: field.name.clone(), counts, ground, filmed, glare: Vec::new() });
+        }
+        let looks = plan.looks(up);
+        let rate = |field: &OfField, sources: &[Source]| {
+            // Glare is that of new lamps.
+            let ground = field.ground.ends().map_or(Reading::default(), |[.., mean]| mean.times(plan.maintenance_factor.recip()));
+            worst(sources, &looks, plan.reflectance, ground)
+        };
+        let mut eyes = sources.iter();
+        let at = |observer: &super::Observer| plan.field(observer.field.as_ref());
+        let observers =
+            plan.observers.iter().zip(&mut eyes).map(|(observer, sources)| (observer.name.clone(), rate(&fields[at(observer)], sources)));
+        let observers: Vec<(String, Rating)> = observers.collect();
+        for (field, found) in plan.fields.iter().zip(&mut fields).filter(|(field, _)| field.glare) {
+            let points = field.raster(EYES, up);
+            let rated: Vec<_> = points.into_iter().zip(&mut eyes).map(|(point, sources)| (point, rate(found, sources))).collect();
+            found.glare = rated;
+        }
+        Self { fields, observers, factor: plan.maintenance_factor, reflectance: plan.reflectance }
+    }
+
+    /// Whether a luminaire stood nearer to a line of sight than CIE 112's formula holds.
+    pub fn has_nearer(&self) -> bool {
+        let at_points = self.fields.iter().flat_map(|field| &field.glare).map(|(_, rating)| rating);
+        self.observers.iter().map(|(_, rating)| rating).chain(at_points).any(|rating| rating.nearer)
+    }
+
+    /// For machines; `docs/sports.md` lists the keys.
+    pub fn json(&self) -> Value {
+        let lit = |lit: &Lit| {
+            let [u1, u2] = uniformities(lit);
+            lit.json(&[("u1", u1), ("u2", u2)])
+        };
+        let field = |field: &OfField| {
+            let camera = |(name, of): &(String, Lit)| {
+                let mut found = lit(of);
+                found.insert("name".into(), json!(name));
+                Value::Object(found)
+            };
+            let mut found = json!({
+                "name": field.name,
+                "points": field.counts,
+                "horizontal": lit(&field.ground),
+                "cameras": field.filmed.iter().map(camera).collect::<Vec<_>>(),
+            });
+            if let Some((place, rating)) = field.worst() {
+                let point = |(place, rating): &([f64; 3], Rating)| of_rating(rating, json!({ "position_m": place }));
+                found["glare"] = of_rating(rating, json!({ "position_m": place }));
+                found["glare"]["points"] = field.glare.iter().map(point).collect();
+            }
+            found
+        };
+        json!({
+            "maintenance_factor": self.factor,
+            "reflectance": self.reflectance,
+            "fields": self.fields.iter().map(field).collect::<Vec<_>>(),
+            "observers": self.observers.iter().map(|(name, rating)| of_rating(rating, json!({ "name": name }))).collect::<Vec<_>>(),
+        })
+    }
+}
+
+impl OfField {
+    /// Where glare is worst.
+    pub(crate) fn worst(&self) -> Option<&([f64; 3], Rating)> {
+        let value = |rating: &Rating| rating.gr.unwrap_or(f64::NEG_INFINITY);
+        self.glare.iter().max_by(|a, b| value(&a.1).total_cmp(&value(&b.1)))
+    }
+}
+
+fn of_rating(rating: &Rating, mut found: Value) -> Value {
+    found["gr"] = json!(rating.gr);
+    found["gr_error"] = json!(rating.gr.map(|_| rating.error));
+    found["look_deg"] = json!(rating.gr.map(|_| rating.look_deg));
+    found
+}

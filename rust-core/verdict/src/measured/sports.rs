@@ -1,0 +1,38 @@
+//! What `gonio sports` prints: fields with what lights them towards cameras, and observers.
+
+use super::{
+    area::{Area, Figure},
+    lit::{estimate, figures},
+    object::{Found, objects, text},
+};
+use crate::unit::Unit;
+use serde_json::{Map, Value};
+
+/// Ratios by their keys, and other names of them.
+const RATIOS: [(&str, &[&str]); 2] = [("u1", &["min_to_max"]), ("u2", &["min_to_average", "uo"])];
+
+pub(super) fn read(whole: &Map<String, Value>, file: usize) -> Found<Vec<Area>> {
+    let mut areas = Vec::new();
+    for field in objects(whole, "fields")? {
+        let mut area = Area::new(text(field, "name", "a field")?, file);
+        let planes = field.get("horizontal").and_then(Value::as_object).map(|lit| ("horizontal", lit));
+        let cameras = objects(field, "cameras")?;
+        let cameras = cameras.into_iter().map(|camera| Ok((text(camera, "name", "a camera")?, camera))).collect::<Found<Vec<_>>>()?;
+        for (plane, lit) in planes.into_iter().chain(cameras) {
+            let of_plane = figures(lit, &RATIOS)?;
+            area.figures.extend(of_plane.into_iter().map(|figure| Figure { of: Some(plane.to_owned()), wants_of: true, ..figure }));
+        }
+        if let Some(glare) = field.get("glare").and_then(Value::as_object) {
+            area.figures.push(rating(glare)?);
+        }
+        areas.push(area);
+    }
+    for observer in objects(whole, "observers")? {
+        areas.push(Area { figures: vec![rating(observer)?], ..Area::new(text(observer, "name", "an observer")?, file) });
+    }
+    Ok(areas)
+}
+
+fn rating(of: &Map<String, Value>) -> Found<Figure> {
+    Ok(Figure { aliases: vec!["glare".to_owned()], ..Figure::new("gr", estimate(of, "gr", "gr_error")?, Unit::plain()) })
+}
