@@ -194,3 +194,43 @@ def test_years_that_are_none(run, folder, change, expected):
     (folder / "bad.wea").write_text("\n".join(change((folder / "year.wea").read_text().split("\n"))))
     done = run("annual-metrics", "--weather", folder / "bad.wea", "--coefficients", saved(folder / "room.npy", level(0.02)))
     assert done.returncode == 1 and "bad.wea" in done.stderr and expected in done.stderr
+
+
+@pytest.mark.parametrize("control", ["dimming", "switching"])
+@pytest.mark.parametrize("sensor", ["least", "mean", "points"])
+def test_electric_light_gives_what_daylight_lacks(run, folder, control, sensor):
+    shares, target = np.array([0.01, 0.03]), 300.0
+    path = saved(folder / "room.npy", level(*shares))
+    lamps = ("--lighting-power", 8, "--lighting-target", target, "--lighting-control", control, "--lighting-sensor", sensor)
+    rest = ("--lighting-least", 0.2, "--lighting-presence", 0.9, "--lighting-standby", 2.5)
+    whole = calculated(run, folder, "--coefficients", path, *lamps, *rest, weather="grey.wea")
+    # Each point has its share of the weather's light.
+    daylight = shares[:, None] * DIFFUSE[USED]
+    seen = {"least": daylight[:1], "mean": daylight.mean(0, keepdims=True), "points": daylight}[sensor]
+    load = np.clip(1 - seen / target, 0.2, 1) if control == "dimming" else (seen < target).astype(float)
+    lit = IS_LIGHT[USED]
+    hours = load[:, lit].mean(0).sum() + np.sum(~lit)
+    found = whole["grids"][0]["electric"]
+    assert found["daylight_hours"] == lit.sum()
+    assert found["full_load_hours"] == pytest.approx(hours, rel=2e-3)
+    assert found["leni_kwh_m2"] == pytest.approx(8 * 0.9 * hours / 1000 + 2.5, rel=2e-3)
+    assert found["leni_without_daylight_kwh_m2"] == pytest.approx(8 * 0.9 * USED.sum() / 1000 + 2.5)
+    assert found["daylight_dependency"] == pytest.approx(load[:, lit].mean(), abs=2e-3)
+
+
+def test_the_verdict_reads_the_energy(run, folder):
+    path = saved(folder / "room.npy", np.stack([level(0.02), level(0.021)]))
+    lines = run("annual-metrics", "--weather", folder / "grey.wea", "--coefficients", path, "--lighting-power", 8)
+    assert "electric light: LENI " in lines.stdout and " ± " in lines.stdout
+    (folder / "year.json").write_text(json.dumps(calculated(run, folder, "--coefficients", path, "--lighting-power", 8)))
+    (folder / "required.toml").write_text('[[require]]\narea = "room"\nquantity = "leni_kwh_m2"\nat_most = 40\n')
+    done = run("verdict", folder / "required.toml", folder / "year.json", "--json")
+    assert [line["verdict"] for line in json.loads(done.stdout)["requirements"]] == ["met"], done.stderr
+
+
+def test_lamps_that_cannot_be_are_told(run, folder):
+    path = saved(folder / "room.npy", level(0.02))
+    common = ("annual-metrics", "--weather", folder / "grey.wea", "--coefficients", path)
+    assert "--lighting-power" in run(*common, "--lighting-target", 300).stderr
+    done = run(*common, "--lighting-power", 8, "--lighting-presence", 1.5)
+    assert done.returncode == 1 and "lighting-presence: 1.5 was found, expected 0 to 1" in done.stderr

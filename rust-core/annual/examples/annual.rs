@@ -11,7 +11,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let year = Year::read(Path::new(weather), &fs::read(weather)?)?;
     let read = |path: &String| -> Result<_, Box<dyn Error>> { Ok(Coefficients::read(Path::new(path), &fs::read(path)?)?) };
     let group = Group { open: read(open)?, direct: direct.first().map(read).transpose()?, sun: None, scattered: None, blinds: None };
-    let settings = Settings { sky: SkyOptions::default(), memory: 1 << 28, threads: 2 };
+    let settings = Settings { sky: SkyOptions::default(), memory: 1 << 28, threads: 2, electric: None };
     let schedule = Schedule::daily(&year, 8.0, 18.0)?;
     let grid = evaluate(&year, &schedule, &[group], &settings, &mut |_| true)?;
     println!("{}", serde_json::to_string(&grid)?);

@@ -107,9 +107,11 @@ impl AnnualReading {
 ///
 /// weather: the bytes of an EPW or WEA file of a whole year; division: Reinhart's of the sky, 1 to 6; schedule: hours of use of every day, or 0 or 1
 /// for each step; blinds: share of light that closed blinds let through; closed: the scene with closed blinds, in place of that share; sky: perez, or
-/// cie1 to cie16; ground: albedo; dew_point: °C; up and north: the scene's axis, and degrees clockwise of true north.
+/// cie1 to cie16; ground: albedo; dew_point: °C; up and north: the scene's axis, and degrees clockwise of true north; lighting: the lamps whose energy
+/// beside daylight is asked for (LENI), a dictionary of power_w_m2, target_lx, control ("dimming" or "switching"), least, sensor ("least", "mean" or
+/// "points"), presence and standby_kwh_m2.
 #[pyfunction]
-#[pyo3(signature = (scene, weather, *, samples = 8192, division = 2, schedule = None, blinds = None, closed = None, sky = "perez", ground = 0.2, dew_point = None, up = "Z", north = 0.0, cancelled = None))]
+#[pyo3(signature = (scene, weather, *, samples = 8192, division = 2, schedule = None, blinds = None, closed = None, sky = "perez", ground = 0.2, dew_point = None, up = "Z", north = 0.0, lighting = None, cancelled = None))]
 #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
 pub(crate) fn annual(
     py: Python<'_>,
@@ -125,6 +127,7 @@ pub(crate) fn annual(
     dew_point: Option<f64>,
     up: &str,
     north: f64,
+    lighting: Option<&Bound<'_, PyAny>>,
     cancelled: Option<Py<PyAny>>,
 ) -> PyResult<Vec<AnnualReading>> {
     let year = Year::read(Path::new("weather"), weather).map_err(|error| exception(told(error)))?;
@@ -133,6 +136,7 @@ pub(crate) fn annual(
         return Err(setting("blinds", format!("{share} was found, expected 0 to 1")));
     }
     let sky = SkyOptions { model: model(sky)?, ground, dew_point_c: dew_point, ..SkyOptions::default() };
+    let electric = lighting.map(|lighting| description::read(lighting, "lighting")).transpose()?;
     let [open, closed] = [Some(scene), closed].map(|scene| scene.map(|scene| measured(&scene.scene, samples)));
     let Some(open) = open else { return Ok(Vec::new()) };
     let task = AnnualTask {
@@ -147,7 +151,7 @@ pub(crate) fn annual(
         let (grids, _) = AnnualGrid::all(&open)?;
         let mut watch = Watch { previous: None, cancel: stop, progress };
         let (groups, _) = trace(&open, &grids, &task, Execution::detect(), &mut watch)?;
-        let settings = Settings { sky, memory: MEMORY, threads: gonio::threads::available_threads() };
+        let settings = Settings { sky, memory: MEMORY, threads: gonio::threads::available_threads(), electric };
         grids.into_iter().zip(groups).map(|(place, group)| reading(place, group, (&year, &schedule), &settings)).collect()
     })
 }

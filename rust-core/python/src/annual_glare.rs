@@ -106,7 +106,7 @@ pub(crate) fn annual_glare(
             return Ok(Vec::new());
         }
         let traced = trace_eyes(&scene, &eyes, &task, Execution::detect(), &mut Watch { previous: None, cancel: stop, progress })?;
-        let settings = Settings { sky, memory: crate::annual::MEMORY, threads: gonio::threads::available_threads() };
+        let settings = Settings { sky, memory: crate::annual::MEMORY, threads: gonio::threads::available_threads(), electric: None };
         let found =
             GlareYear::new(&year, &schedule, (traced.views, traced.group), &settings, &|| true).map_err(told)?.ok_or(Error::Cancelled)?;
         let reading = |(number, (eye, (glare, errors))): (usize, (Eye, (EyeGlare, Option<EyeGlare>)))| AnnualGlareReading {

@@ -8,6 +8,7 @@ mod shape;
 use crate::{
     chunk::Chunk,
     daylight_factor,
+    electric::ElectricLight,
     error::Result,
     group::Group,
     metrics::{Counts, Grid, Half, Variant},
@@ -29,6 +30,8 @@ pub struct Settings {
     pub memory: usize,
     /// Threads.
     pub threads: usize,
+    /// Electric light beside daylight, whose energy is asked for.
+    pub electric: Option<ElectricLight>,
 }
 
 /// Calculates a grid by its groups of windows, whose light adds up. `take` sees every chunk, of all blocks and without each of
@@ -43,6 +46,7 @@ pub fn evaluate(
     settings: &Settings,
     take: &mut dyn FnMut(&Chunk<'_>) -> bool,
 ) -> Result<Option<Grid>> {
+    settings.electric.iter().try_for_each(ElectricLight::check)?;
     let shape = shape::shape(groups, year)?;
     let options = SkyOptions { factor: shape.factor, quantity: Quantity::Luminance, ..settings.sky };
     let all = SkyMatrix::new(year, SkyOptions { light: Light::All { sun_patches: 4 }, ..options })?;
@@ -51,7 +55,7 @@ pub fn evaluate(
     let half = Half::of(&all);
     let mut variants: Vec<(Vec<Prepared>, Counts)> = std::iter::once(None)
         .chain((0..shape.blocks).filter(|_| shape.blocks > 1).map(Some))
-        .map(|without| (Prepared::all(groups, without), Counts::new(shape.points)))
+        .map(|without| (Prepared::all(groups, without), Counts::new(shape.points, settings.electric)))
         .collect();
     let lit: Vec<usize> = (0..year.steps.len()).filter(|step| all.conditions(*step).is_some()).collect();
     let skies = columns::Skies { all: &all, alone: &alone, sky: &sky, suns: &shape.suns };

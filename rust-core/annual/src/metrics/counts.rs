@@ -1,7 +1,11 @@
 //! What is counted of a year at each point, chunk by chunk.
 
 use super::en17037::{Half, LEVELS};
-use crate::{chunk::Chunk, schedule::Schedule};
+use crate::{
+    chunk::Chunk,
+    electric::{ElectricLight, Loads},
+    schedule::Schedule,
+};
 
 /// Direct sun that counts, lx.
 const BRIGHT: f32 = 1000.0;
@@ -31,15 +35,18 @@ pub(crate) struct Count {
 #[derive(Clone, Debug)]
 pub(crate) struct Counts {
     pub(super) points: Vec<Count>,
+    /// Of electric light beside it, where that is asked for.
+    pub(super) loads: Option<Loads>,
 }
 
 impl Counts {
-    pub(crate) fn new(points: usize) -> Self {
-        Self { points: vec![Count::default(); points] }
+    pub(crate) fn new(points: usize, electric: Option<ElectricLight>) -> Self {
+        Self { points: vec![Count::default(); points], loads: electric.map(Loads::new) }
     }
 
     /// Counts a chunk.
     pub(crate) fn add(&mut self, chunk: &Chunk<'_>, schedule: &Schedule, half: &Half) {
+        self.loads.iter_mut().for_each(|loads| loads.add(chunk, schedule));
         let steps = chunk.steps.len();
         let used: Vec<bool> = chunk.steps.iter().map(|step| schedule.is_used(*step)).collect();
         let is_bright: Vec<bool> = chunk.steps.iter().map(|step| half.has(*step)).collect();

@@ -6,7 +6,7 @@ use super::{
     errors::jackknife,
     point::Point,
 };
-use crate::{schedule::Schedule, year::Year};
+use crate::{electric::Electric, schedule::Schedule, year::Year};
 use serde::Serialize;
 
 /// Daylight autonomy that a point needs to count for sDA.
@@ -36,6 +36,9 @@ pub struct Grid {
     pub median_daylight_factor: f64,
     /// Daylight provision.
     pub en17037: En17037,
+    /// Electric light beside daylight, where it was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub electric: Option<Electric>,
     /// Used hours of the year.
     pub used_hours: f64,
     /// The points in the order of the coefficients' rows.
@@ -57,6 +60,9 @@ pub struct GridErrors {
     pub udi_100_3000: f64,
     /// Of [`Grid::median_daylight_factor`].
     pub median_daylight_factor: f64,
+    /// Of [`Grid::electric`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub electric: Option<Electric>,
     /// Of [`Grid::points`].
     pub points: Vec<Point>,
 }
@@ -68,7 +74,8 @@ impl Grid {
         let grid = |variant: &Variant| {
             let pairs = variant.counts.points.iter().zip(&variant.factors);
             let points = pairs.map(|(count, factor)| Point::new(count, used, half.count, year.step_hours, has_direct, *factor)).collect();
-            Self::of_points(points, half, used as f64 * year.step_hours, has_direct)
+            let electric = variant.counts.loads.as_ref().map(|loads| loads.year(used, year.step_hours));
+            Self { electric, ..Self::of_points(points, half, used as f64 * year.step_hours, has_direct) }
         };
         let mut whole = grid(&variants[0]);
         let without: Vec<Self> = variants[1..].iter().map(grid).collect();
@@ -90,6 +97,7 @@ impl Grid {
                 daylight_factor: Method::new(points.iter().map(|point| by_factor(point.daylight_factor, half.median_diffuse_lx))),
                 median_diffuse_lx: half.median_diffuse_lx,
             },
+            electric: None,
             used_hours,
             points,
             standard_errors: None,
@@ -109,6 +117,9 @@ impl Grid {
             mean_lx: error(&|grid| grid.mean_lx),
             udi_100_3000: error(&|grid| grid.udi_100_3000),
             median_daylight_factor: error(&|grid| grid.median_daylight_factor),
+            electric: self
+                .electric
+                .map(|_| Electric::errors(&without.iter().filter_map(|grid| grid.electric).collect::<Vec<_>>(), jackknife)),
             points: self.points.iter().enumerate().map(point).collect(),
         }
     }

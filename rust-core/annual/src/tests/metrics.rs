@@ -1,7 +1,9 @@
 //! Metrics by hand.
 
 use super::{group, made_up, settings};
-use crate::{Blinds, Coefficients, Division, Grid, Group, Level, Schedule, Settings, Year, evaluate, sky::SkyMatrix};
+use crate::{
+    Blinds, Coefficients, Control, Division, ElectricLight, Grid, Group, Level, Schedule, Sensor, Settings, Year, evaluate, sky::SkyMatrix,
+};
 
 fn year() -> Year {
     made_up()
@@ -182,4 +184,43 @@ fn blocks_give_standard_errors() {
     let errors = grid.standard_errors.as_ref().expect("errors");
     assert!(errors.points[0].hours_direct_1000.is_some_and(|error| error > 0.0));
     assert_eq!((errors.points[0].mean_lx, errors.median_daylight_factor), (0.0, 0.0));
+}
+
+#[test]
+fn electric_light_gives_what_daylight_lacks() {
+    let lamps = ElectricLight { power_w_m2: 10.0, target_lx: 400.0, presence: 0.8, standby_kwh_m2: 1.5, ..ElectricLight::default() };
+    let electric = |lamps: ElectricLight| {
+        found(&[group(&[level(0.03), level(0.01)])], &Settings { electric: Some(lamps), ..settings() }).electric.expect("lamps")
+    };
+    // Light falls from 8 to 17 by the records' rule; the other used hours are dark.
+    let lit: Vec<f64> = outside().into_iter().filter(|value| *value > 0.0).collect();
+    let dimmed = |daylight: f64| (1.0 - daylight / 400.0).clamp(0.1, 1.0);
+    let hours = |load: &dyn Fn(f64) -> f64| lit.iter().map(|value| load(*value)).sum::<f64>() + 3650.0 - lit.len() as f64;
+    let close = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 1e-5, "{a} {b}");
+    let least = electric(lamps);
+    close(least.full_load_hours, hours(&|value| dimmed(0.01 * value)));
+    close(least.leni_kwh_m2, 10.0 * 0.8 * least.full_load_hours * 1e-3 + 1.5);
+    close(least.leni_without_daylight_kwh_m2, 10.0 * 0.8 * 3.65 + 1.5);
+    close(least.daylight_hours, lit.len() as f64);
+    close(least.daylight_dependency.expect("light"), (least.full_load_hours - 3650.0 + least.daylight_hours) / least.daylight_hours);
+    let of_sensor = |sensor| electric(ElectricLight { sensor, ..lamps }).full_load_hours;
+    close(of_sensor(Sensor::Mean), hours(&|value| dimmed(0.02 * value)));
+    close(of_sensor(Sensor::Points), hours(&|value| 0.5 * (dimmed(0.03 * value) + dimmed(0.01 * value))));
+    let switched = electric(ElectricLight { control: Control::Switching, ..lamps }).full_load_hours;
+    close(switched, hours(&|value| f64::from(0.01 * value < 400.0)));
+}
+
+#[test]
+fn lamps_out_of_their_range_are_told() {
+    let year = year();
+    let schedule = Schedule::daily(&year, 8.0, 18.0).expect("a schedule");
+    for (lamps, words) in [
+        (ElectricLight { target_lx: 0.0, ..ElectricLight::default() }, "lighting-target"),
+        (ElectricLight { least: 2.0, ..ElectricLight::default() }, "expected 0 to 1"),
+        (ElectricLight { power_w_m2: f64::NAN, ..ElectricLight::default() }, "lighting-power"),
+    ] {
+        let settings = Settings { electric: Some(lamps), ..settings() };
+        let error = evaluate(&year, &schedule, &[group(&[level(0.1)])], &settings, &mut |_| true).expect_err("out of range");
+        assert!(error.to_string().contains(words), "{error}");
+    }
 }

@@ -48,5 +48,5 @@ fn group(rows: &[Vec<f32>]) -> Group {
 }
 
 fn settings() -> Settings {
-    Settings { sky: SkyOptions::default(), memory: 1 << 24, threads: 2 }
+    Settings { sky: SkyOptions::default(), memory: 1 << 24, threads: 2, electric: None }
 }

@@ -1,12 +1,12 @@
 //! The files of `gonio annual-metrics`, and what its options make of them.
 
 use crate::{
-    arguments::{AnnualMetricsOptions, YearArguments},
+    arguments::{AnnualMetricsOptions, ControlArgument, LightingArguments, SensorArgument, YearArguments},
     file,
 };
 use gonio::{Error, Result, annual::told, sky::SkyModel};
 use gonio_annual::{
-    Blinds, Coefficients, Division, Group, Schedule, Year,
+    Blinds, Coefficients, Control, Division, ElectricLight, Group, Schedule, Sensor, Year,
     sky::{Model, SkyOptions},
 };
 use std::path::{Path, PathBuf};
@@ -68,6 +68,26 @@ pub(super) fn share(blinds: Option<f64>) -> Result<Option<f32>> {
         Some(share) if !(0.0..=1.0).contains(&share) => Err(Error::setting("blinds", format!("{share} was found, expected 0 to 1"))),
         blinds => Ok(blinds.map(|share| share as f32)),
     }
+}
+
+/// The lamps beside daylight, where their power was given.
+pub(super) fn electric(options: &LightingArguments) -> Option<ElectricLight> {
+    options.lighting_power.map(|power_w_m2| ElectricLight {
+        power_w_m2,
+        target_lx: options.lighting_target,
+        control: match options.lighting_control {
+            ControlArgument::Dimming => Control::Dimming,
+            ControlArgument::Switching => Control::Switching,
+        },
+        least: options.lighting_least,
+        sensor: match options.lighting_sensor {
+            SensorArgument::Least => Sensor::Least,
+            SensorArgument::Mean => Sensor::Mean,
+            SensorArgument::Points => Sensor::Points,
+        },
+        presence: options.lighting_presence,
+        standby_kwh_m2: options.lighting_standby,
+    })
 }
 
 /// Names of the grids: those of the files without their endings, numbered where they are the same.

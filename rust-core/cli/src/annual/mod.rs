@@ -21,6 +21,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// Reads weather and coefficients, calculates every grid, and writes what was asked for.
 pub(super) fn annual_metrics(options: &AnnualMetricsOptions, interrupted: &AtomicBool) -> Result<i32> {
     let mut settings = settings(&options.year, options.threads)?;
+    settings.electric = inputs::electric(&options.lighting);
     settings.sky.rotation_deg = -options.year.north;
     if let Some(folder) = &options.year.output {
         check_targets(inputs::grid_names(options).iter().flat_map(|name| series::paths(folder, name)).collect::<Vec<_>>().iter())?;
@@ -69,7 +70,7 @@ fn calculate(
 
 fn settings(options: &YearArguments, threads: u32) -> Result<Settings> {
     let threads = if threads == 0 { available_threads() } else { threads as usize };
-    Ok(Settings { sky: inputs::sky(options)?, memory: usize::try_from(options.memory).unwrap_or(usize::MAX), threads })
+    Ok(Settings { sky: inputs::sky(options)?, memory: usize::try_from(options.memory).unwrap_or(usize::MAX), threads, electric: None })
 }
 
 fn as_json(named: &Named, grid: &Grid) -> Value {

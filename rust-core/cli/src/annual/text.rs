@@ -1,7 +1,7 @@
 //! A grid's year as lines for a reader.
 
 use crate::arguments::MetricArgument as Metric;
-use gonio_annual::{Grid, Method};
+use gonio_annual::{Electric, Grid, Method};
 
 /// The lines of a grid; of all figures, or of those that were chosen.
 pub(super) fn lines(name: &str, grid: &Grid, chosen: &[Metric]) -> Vec<String> {
@@ -36,6 +36,26 @@ pub(super) fn lines(name: &str, grid: &Grid, chosen: &[Metric]) -> Vec<String> {
         ),
     ];
     let head = format!("{name}: {} points, {:.0} used hours", grid.points.len(), grid.used_hours);
+    let electric = grid.electric.as_ref().map(|found| electric(found, errors.and_then(|errors| errors.electric.as_ref())));
     let told = figures.into_iter().filter(|(metric, _)| chosen.is_empty() || chosen.contains(metric));
-    std::iter::once(head).chain(told.map(|(_, line)| format!("  {line}"))).collect()
+    std::iter::once(head).chain(told.map(|(_, line)| line).chain(electric).map(indented)).collect()
+}
+
+fn indented(line: String) -> String {
+    format!("  {line}")
+}
+
+/// Electric light beside daylight, with its standard errors.
+fn electric(found: &Electric, errors: Option<&Electric>) -> String {
+    let error = |of: &dyn Fn(&Electric) -> f64, digits: usize| errors.map_or(String::new(), |errors| format!(" ± {:.digits$}", of(errors)));
+    let dependency = |found: &Electric| found.daylight_dependency.unwrap_or(0.0);
+    format!(
+        "electric light: LENI {:.2}{} kWh/m², {:.2} without daylight; F_D {:.3}{} in {:.0} hours with daylight",
+        found.leni_kwh_m2,
+        error(&|found| found.leni_kwh_m2, 2),
+        found.leni_without_daylight_kwh_m2,
+        dependency(found),
+        error(&dependency, 3),
+        found.daylight_hours,
+    )
 }

@@ -14,6 +14,7 @@ pub(super) const ANNUAL_EXAMPLES: &str = "Examples:
   gonio annual office.usda --weather mannheim.epw --grid /Office/Floor --height 0.8 --blinds 0.05 -o out
   gonio annual office.usda --weather mannheim.epw --grid /Office/Floor --closed-variant '/Office{blinds=closed}' --json
   gonio annual office.usda --weather oslo.epw --grid /Office/Floor --schedule 7-19 --metrics sda,ase
+  gonio annual office.usda --weather oslo.epw --grid /Office/Floor --lighting-power 7 --lighting-target 500
 
 The stage's lamps are dark and its sky and sun give way to the weather's. docs/annual.md takes you from a weather file to sDA in five minutes.";
 
@@ -68,6 +69,52 @@ pub(crate) struct YearArguments {
     pub(crate) output: Option<PathBuf>,
 }
 
+/// The lamps of the room, whose energy beside daylight is asked for.
+#[derive(Args, Clone, Debug)]
+pub(crate) struct LightingArguments {
+    /// Installed power of the electric light over the area, W/m²: tells its energy over the year beside daylight (LENI), by these options.
+    #[arg(long, value_name = "W/M2", value_parser = finite::<f64>)]
+    pub(crate) lighting_power: Option<f64>,
+    /// What the lamps give at full power, and what is wanted.
+    #[arg(long, value_name = "LX", default_value_t = 500.0, requires = "lighting_power", value_parser = finite::<f64>)]
+    pub(crate) lighting_target: f64,
+    /// How they follow daylight.
+    #[arg(long, value_enum, default_value_t = ControlArgument::Dimming, requires = "lighting_power")]
+    pub(crate) lighting_control: ControlArgument,
+    /// Share of their power that dimmed lamps take at least, 0 to 1.
+    #[arg(long, value_name = "SHARE", default_value_t = 0.1, requires = "lighting_power", value_parser = finite::<f64>)]
+    pub(crate) lighting_least: f64,
+    /// Which daylight the control sees.
+    #[arg(long, value_enum, default_value_t = SensorArgument::Least, requires = "lighting_power")]
+    pub(crate) lighting_sensor: SensorArgument,
+    /// Share of the used hours in which somebody is there and light is wanted, 0 to 1.
+    #[arg(long, value_name = "SHARE", default_value_t = 1.0, requires = "lighting_power", value_parser = finite::<f64>)]
+    pub(crate) lighting_presence: f64,
+    /// What controls and emergency lamps take besides, kWh/m² in a year.
+    #[arg(long, value_name = "KWH/M2", default_value_t = 0.0, requires = "lighting_power", value_parser = finite::<f64>)]
+    pub(crate) lighting_standby: f64,
+}
+
+/// How lamps follow daylight.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ControlArgument {
+    /// They give what daylight lacks.
+    Dimming,
+    /// They are off where daylight alone is enough.
+    Switching,
+}
+
+/// Which daylight the control of lamps sees.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SensorArgument {
+    /// That of the darkest point: what is wanted is there everywhere.
+    Least,
+    /// The mean of all points.
+    Mean,
+    /// Each point's own, by lamps of its own.
+    Points,
+}
+
 /// A figure that is written out in lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum MetricArgument {
@@ -93,6 +140,8 @@ pub(crate) struct AnnualOptions {
     pub(crate) year: YearArguments,
     #[command(flatten)]
     pub(crate) grids: GridArguments,
+    #[command(flatten)]
+    pub(crate) lighting: LightingArguments,
     /// The figures that lines tell, separated by commas; --json and -o have all of them.
     #[arg(long, value_enum, value_name = "NAMES", value_delimiter = ',')]
     pub(crate) metrics: Vec<MetricArgument>,
@@ -159,6 +208,8 @@ pub(crate) struct AnnualGlareOptions {
 pub(crate) struct AnnualMetricsOptions {
     #[command(flatten)]
     pub(crate) year: YearArguments,
+    #[command(flatten)]
+    pub(crate) lighting: LightingArguments,
     /// Daylight coefficients, points × patches, a file for each grid: a Radiance matrix (text, float, double) or .npy; blocks × points × patches give standard errors.
     #[arg(long, value_name = "FILE", required = true, num_args = 1..)]
     pub(crate) coefficients: Vec<PathBuf>,

@@ -33,7 +33,10 @@ mod verdict;
 mod view;
 mod work;
 
-pub(super) use annual::{AnnualGlareOptions, AnnualMetricsOptions, AnnualOptions, MetricArgument, YearArguments};
+pub(super) use annual::{
+    AnnualGlareOptions, AnnualMetricsOptions, AnnualOptions, ControlArgument, LightingArguments, MetricArgument, SensorArgument,
+    YearArguments,
+};
 pub(super) use bench::BenchOptions;
 pub(super) use bsdf::{BsdfOptions, SampleArguments};
 pub(super) use checkpoint::{CheckpointArguments, MergeArguments};

@@ -259,6 +259,7 @@ def annual(
     dew_point: float | None = None,
     up: str = "Z",
     north: float = 0.0,
+    lighting: Mapping[str, float | str] | None = None,
     cancelled: Callable[[], bool] | None = None,
 ) -> list[AnnualReading]: ...
 

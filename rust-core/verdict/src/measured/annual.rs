@@ -43,12 +43,22 @@ fn grid(of: &Map<String, Value>, file: usize) -> Found<Area> {
         area.figures.push(figure);
     }
     area.figures.extend(daylight_provision(of));
+    area.figures.extend(electric_light(of, errors));
     Ok(area)
 }
 
 fn figure(key: &str, value: Option<Estimate>) -> Figure {
     let notes = value.filter(|value| value.error.is_none()).map(|_| Note::NoError).into_iter().collect();
     Figure { notes, ..Figure::new(key, value, table::unit(key)) }
+}
+
+/// Energy of the lamps beside daylight, where it was asked for.
+fn electric_light(of: &Map<String, Value>, errors: Option<&Map<String, Value>>) -> Vec<Figure> {
+    let object = |of: &Map<String, Value>| of.get("electric").and_then(Value::as_object).cloned();
+    let (Some(found), errors) = (object(of), errors.and_then(object)) else { return Vec::new() };
+    let error = |key: &str| errors.as_ref().and_then(|errors| number(errors, key));
+    let of_key = |(key, value): (String, Option<f64>)| figure(&key, value.map(|value| Estimate::new(value, error(&key))));
+    table::numbers(&found).into_iter().map(of_key).collect()
 }
 
 /// Shares of the area by both methods of EN 17037: `hourly_area_300`, `daylight_factor_area_300`.

@@ -5,7 +5,7 @@ use crate::{estimate::Estimate, unit::Unit};
 use serde_json::{Map, Value};
 
 /// Units by the beginnings of the names of numbers; the longest counts.
-const UNITS: [(&str, &str, bool); 19] = [
+const UNITS: [(&str, &str, bool); 22] = [
     ("l_av", "cd/m²", true),
     ("e_", "lx", true),
     ("mean_lx", "lx", true),
@@ -23,6 +23,9 @@ const UNITS: [(&str, &str, bool); 19] = [
     ("daylight_factor_area_", "", false),
     ("used_hours", "h", false),
     ("hours_direct_", "h", false),
+    ("leni_", "kWh/m²", false),
+    ("daylight_hours", "h", false),
+    ("full_load_hours", "h", false),
     ("modelling", "", false),
     ("lane", "", false),
 ];
