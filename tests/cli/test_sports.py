@@ -173,7 +173,7 @@ def test_the_verdict_reads_it(tmp_path, run):
     command = written(tmp_path, FIELD + OBSERVER + camera)
     (tmp_path / "pitch.json").write_text(run(*command, "--json").stdout)
     lines = (
-        ("Court", "average", 'of = "horizontal"\nat_least = 100'),
+        ("Court", "average", 'of = "horizontal"\nat_least = 80'),
         ("Court", "u2", 'of = "Main"\nat_least = 0.99'),
         ("Keeper", "gr", "at_most = 90"),
     )

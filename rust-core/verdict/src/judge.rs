@@ -5,7 +5,7 @@ use crate::{
     error::{Result, VerdictError},
     estimate::Estimate,
     measured::{Area, Figure, Measured},
-    names::{listed, nearest, shown},
+    names::{listed, nearest, shown, spelt},
     note::Note,
     requirement::Requirement,
     sheet::{Reached, Row},
@@ -23,7 +23,6 @@ struct Wanted<'a> {
 
 /// The line of a requirement.
 pub(crate) fn judged(requirement: &Requirement, path: &Path, measured: &Measured) -> Result<Row> {
-    let spelt = |name: &str| name.trim().replace('-', "_").to_lowercase();
     let wanted = Wanted { requirement, path, quantity: spelt(&requirement.quantity), of: requirement.of.as_deref().map(spelt) };
     let file = requirement.file.as_deref().map(|file| measured.file(file).map_err(|problem| wanted.problem(problem))).transpose()?;
     let areas: Vec<(usize, &Area, u8)> =

@@ -62,3 +62,8 @@ pub(crate) fn fit(written: &str, known: &str) -> Option<u8> {
         None
     }
 }
+
+/// A quantity as files spell it.
+pub(crate) fn spelt(name: &str) -> String {
+    name.trim().replace('-', "_").to_lowercase()
+}

@@ -1,6 +1,6 @@
 //! What has figures, and what a figure is.
 
-use crate::{estimate::Estimate, note::Note, plan::Plan, unit::Unit};
+use crate::{estimate::Estimate, names::spelt, note::Note, plan::Plan, unit::Unit};
 
 /// A figure of an area.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,7 +31,7 @@ impl Figure {
     pub(crate) fn is(&self, quantity: &str, of: Option<&str>) -> bool {
         let named = self.key == quantity || self.aliases.iter().any(|alias| alias == quantity);
         let short = self.key != quantity && named;
-        named && of.map_or(!self.wants_of || short, |of| self.of.as_deref() == Some(of))
+        named && of.map_or(!self.wants_of || short, |of| self.of.as_deref().map(spelt).as_deref() == Some(of))
     }
 }
 
