@@ -235,3 +235,12 @@ def test_python_has_the_same_year(tmp_path, run, weather):
     assert np.asarray(found.total) == pytest.approx(total, rel=5e-3, abs=2)
     assert np.asarray(found.direct) == pytest.approx(direct, rel=1e-4, abs=0.1)
     assert found.figures["sda_300_50"] == grid["sda_300_50"] and found.size == (2, 2)
+    lamps = {"power_w_m2": 8, "target_lx": 2e4, "control": "dimming", "sensor": "points", "least": 0.25}
+    (found,) = gonio.annual(scene, weather[0].read_bytes(), samples=256, lighting=lamps)
+    used, values = (HOUR > 8) & (HOUR < 18), np.asarray(found.total)
+    hours = np.clip(1 - values[:, used] / 2e4, 0.25, 1).mean(0).sum()
+    electric = found.figures["electric"]
+    assert electric["full_load_hours"] == pytest.approx(hours, rel=1e-5) and electric["leni_kwh_m2"] == pytest.approx(0.008 * hours, rel=1e-5)
+    assert 0 < found.figures["standard_errors"]["electric"]["leni_kwh_m2"] < 0.1 * electric["leni_kwh_m2"]
+    with pytest.raises(gonio.GonioError, match="unknown field `watts`"):
+        gonio.annual(scene, weather[0].read_bytes(), lighting={"watts": 8})

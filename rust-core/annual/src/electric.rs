@@ -65,9 +65,9 @@ pub struct Electric {
 }
 
 impl Default for ElectricLight {
-    /// Without power; dimmed to a tenth beside 500 lx, by the darkest point.
+    /// Without power; dimmed to a tenth beside 500 lx, by the mean of all points.
     fn default() -> Self {
-        let (control, sensor) = (Control::Dimming, Sensor::Least);
+        let (control, sensor) = (Control::Dimming, Sensor::Mean);
         Self { power_w_m2: 0.0, target_lx: 500.0, control, least: 0.1, sensor, presence: 1.0, standby_kwh_m2: 0.0 }
     }
 }

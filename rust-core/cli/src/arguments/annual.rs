@@ -85,7 +85,7 @@ pub(crate) struct LightingArguments {
     #[arg(long, value_name = "SHARE", default_value_t = 0.1, requires = "lighting_power", value_parser = finite::<f64>)]
     pub(crate) lighting_least: f64,
     /// Which daylight the control sees.
-    #[arg(long, value_enum, default_value_t = SensorArgument::Least, requires = "lighting_power")]
+    #[arg(long, value_enum, default_value_t = SensorArgument::Mean, requires = "lighting_power")]
     pub(crate) lighting_sensor: SensorArgument,
     /// Share of the used hours in which somebody is there and light is wanted, 0 to 1.
     #[arg(long, value_name = "SHARE", default_value_t = 1.0, requires = "lighting_power", value_parser = finite::<f64>)]
