@@ -242,5 +242,5 @@ def test_python_has_the_same_year(tmp_path, run, weather):
     electric = found.figures["electric"]
     assert electric["full_load_hours"] == pytest.approx(hours, rel=1e-5) and electric["leni_kwh_m2"] == pytest.approx(0.008 * hours, rel=1e-5)
     assert 0 < found.figures["standard_errors"]["electric"]["leni_kwh_m2"] < 0.1 * electric["leni_kwh_m2"]
-    with pytest.raises(gonio.GonioError, match="unknown field `watts`"):
+    with pytest.raises(gonio.SettingError, match="unknown field `watts`"):
         gonio.annual(scene, weather[0].read_bytes(), lighting={"watts": 8})

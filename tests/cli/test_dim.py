@@ -180,3 +180,21 @@ def test_a_stage_without_groups_is_told(run, tmp_path):
 def test_numbers_that_are_none_are_refused(run, stage, arguments):
     done = run("dim", stage, *QUICK, "--target", "Floor.mean>=5", *arguments)
     assert done.returncode == 2 and arguments[0] in done.stderr
+
+
+def test_python_finds_the_same_levels(run, stage):
+    targets = ("Floor.mean>=400", "Floor.uo>=0.6")
+    watts = {f"g{k}": value for k, value in enumerate(WATTS)}
+    command = dimmed(run, stage, *options(*targets))
+    scene = gonio.load_usd(str(stage))
+    found = gonio.dim(scene, targets, watts=watts, samples=256)
+    assert found["met"] and found["watts"] == pytest.approx(command["watts"], rel=1e-6)
+    assert [group["level"] for group in found["groups"]] == pytest.approx([group["level"] for group in command["groups"]], abs=1e-6)
+    assert [target["verdict"] for target in found["targets"]] == [target["verdict"] for target in command["targets"]]
+    near = gonio.dim(scene, targets[:1], watts=watts, near="equal", fixed={"g0": 0.5}, samples=256)
+    levels = [group["level"] for group in near["groups"]]
+    assert levels[0] == 0.5 and levels[1:] == pytest.approx([levels[1]] * 7, abs=1e-6)
+    assert any("100 lm/W" in note for note in gonio.dim(scene, targets[:1], samples=64)["notes"])
+    for more, words in (({"near": "alike"}, "expected 'equal'"), ({"fixed": {"g9": 1}}, "no light group 'g9'"), ({"min_level": 2}, "expected 0 to 1")):
+        with pytest.raises(gonio.SettingError, match=words):
+            gonio.dim(scene, targets, samples=64, **more)

@@ -67,6 +67,7 @@ const CRATES: [(&str, &[&str]); 23] = [
             "spectrum",
             "sky",
             "annual",
+            "dimming",
             "mesh",
             "accel",
             "image",

@@ -9,6 +9,7 @@ pub mod antialias;
 pub mod bake;
 pub mod checkpoint;
 pub mod compile;
+pub mod dim;
 pub mod film;
 pub mod goniometer;
 pub mod light_paths;

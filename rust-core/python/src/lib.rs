@@ -9,6 +9,7 @@ mod buffer;
 mod curves;
 mod daylight;
 mod description;
+mod dim;
 mod error;
 mod field;
 mod film;
@@ -56,6 +57,8 @@ mod _gonio {
     use crate::artist_sky::{artist_sky, sky_formula, sky_table};
     #[pymodule_export]
     use crate::daylight::{Daylight, daylight, read_weather};
+    #[pymodule_export]
+    use crate::dim::dim;
     #[pymodule_export]
     use crate::error::{_setting_error, Cancelled, Error, FormatError, SceneError, SettingError, UnsupportedError};
     #[pymodule_export]

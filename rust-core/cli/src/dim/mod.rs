@@ -1,25 +1,23 @@
 //! `gonio dim`.
 
-mod asked;
-mod contributions;
-mod groups;
 mod shown;
-mod told;
 
 use super::{
     arguments::DimOptions,
     file::{check_ending, check_targets, print_path, put},
-    measure::loaded,
-    messages::print,
+    measure::{loaded, watched},
+    messages::{print, say, tell},
+    progress::Reporter,
 };
-use asked::Asked;
-use gonio::Result;
-use gonio_dimming::{Problem, Solution};
-use gonio_usd::{Loaded, SampleTime};
-use groups::LightGroup;
+use gonio::{
+    Error, Result,
+    dim::{DimTask, Dimming, Near, dim as found_dimming},
+    scene::Light,
+};
+use gonio_simd::Execution;
+use gonio_usd::SampleTime;
 use pyo3::prelude::*;
 use std::sync::atomic::AtomicBool;
-use told::told;
 
 /// Measures the groups, solves, and writes what was asked for; the status is 1 where a target is not met.
 pub(super) fn dim(py: Python<'_>, options: &DimOptions, interrupted: &'static AtomicBool) -> Result<i32> {
@@ -27,56 +25,58 @@ pub(super) fn dim(py: Python<'_>, options: &DimOptions, interrupted: &'static At
         check_ending("output", output, &["usda"])?;
         check_targets([output])?;
     }
-    let (stage, mut loaded) = loaded(py, &options.measuring, interrupted)?;
-    let groups = LightGroup::all(options, &loaded)?;
-    let asked = Asked::new(options, &loaded.scene, &groups)?;
-    let lamps = groups.clone();
-    let (problem, solution) = py.detach(|| solved(options, &mut loaded, groups, &asked, interrupted))?;
+    let [watts, fixed] = [("watts", &options.watts), ("fixed", &options.fixed)].map(|(option, texts)| numbers(option, texts));
+    let (watts, fixed, near) = (watts?, fixed?, near(&options.near)?);
+    let (stage, loaded) = loaded(py, &options.measuring, interrupted)?;
+    let (scene, luminaires, quiet) = (&loaded.scene, &loaded.luminaires, options.measuring.quiet);
+    let stated = |light: &Light| luminaires.iter().find(|file| file.is_of(light))?.photometry.figures().watts;
+    let (min_level, errors_kept) = (options.min_level, options.errors);
+    let task = DimTask { targets: &options.target, watts: &watts, fixed: &fixed, min_level, near, errors_kept, stated: &stated };
+    let found = watched(Reporter::new(quiet), None, interrupted, |watch| found_dimming(scene, &task, Execution::detect(), watch))?;
+    tell(&options.measuring.stage, quiet, &found.diagnostics);
+    found.notes.iter().filter(|_| !quiet).for_each(|note| say(note));
     if let Some(output) = &options.output {
-        let factors = dimmed(&lamps, &solution);
         let time = options.measuring.frame.map_or(SampleTime::Start, SampleTime::Code);
-        put(output, stage.usd("output")?.dimmed(py, &factors, time, output)?.as_bytes())?;
+        put(output, stage.usd("output")?.dimmed(py, &factors(&found), time, output)?.as_bytes())?;
     }
-    show(options, &problem, &lamps, &solution);
-    Ok(i32::from(!solution.meets_all()))
+    show(options, &found);
+    Ok(i32::from(!found.solution.meets_all()))
 }
 
-/// What was measured of the groups, and the levels found; glare is rated at these.
-fn solved(
-    options: &DimOptions,
-    loaded: &mut Loaded,
-    groups: Vec<LightGroup>,
-    asked: &Asked,
-    interrupted: &'static AtomicBool,
-) -> Result<(Problem, Solution)> {
-    let areas = contributions::measured(&options.measuring, &mut loaded.scene, &groups, asked, interrupted)?;
-    let lamps: Vec<Vec<usize>> = groups.iter().map(|group| group.lights.clone()).collect();
-    let problem = Problem {
-        groups: groups.into_iter().map(|group| group.group).collect(),
-        areas,
-        targets: asked.light.clone(),
-        goal: asked.goal.clone(),
-        errors_kept: options.errors,
+/// What `--near` asks for.
+fn near(texts: &[String]) -> Result<Near> {
+    match texts {
+        [] => Ok(Near::LeastPower),
+        [one] if one == "equal" => Ok(Near::Equal),
+        several if several.iter().any(|text| text == "equal") => {
+            Err(Error::setting("near", "'equal' stands alone, expected it or GROUP=LEVEL"))
+        }
+        _ => Ok(Near::Levels(numbers("near", texts)?)),
+    }
+}
+
+/// Groups' numbers of zero or more, as an option has them.
+fn numbers(option: &'static str, texts: &[String]) -> Result<Vec<(String, f64)>> {
+    let number = |text: &String| {
+        let wrong = || Error::setting(option, format!("'{text}' was found, expected GROUP=NUMBER with a number of zero or more"));
+        let (name, number) = text.rsplit_once('=').ok_or_else(wrong)?;
+        let number = number.trim().parse().ok().filter(|x: &f64| x.is_finite() && *x >= 0.0).ok_or_else(wrong)?;
+        Ok((name.to_owned(), number))
     };
-    let mut solution = problem.solve().map_err(|error| told("target", error))?;
-    solution.targets.extend(contributions::glare(&options.measuring, &mut loaded.scene, (&lamps, &solution.levels), asked, interrupted)?);
-    Ok((problem, solution))
+    texts.iter().map(number).collect()
 }
 
 /// The factors of the prims whose lights are dimmed.
-fn dimmed(groups: &[LightGroup], solution: &Solution) -> Vec<(String, f64)> {
-    let of_group = |(group, level): (&LightGroup, &f64)| {
-        let level = *level;
-        group.prims.iter().map(move |prim| (prim.clone(), level)).collect::<Vec<_>>()
-    };
-    groups.iter().zip(&solution.levels).filter(|(_, level)| **level < 1.0).flat_map(of_group).collect()
+fn factors(found: &Dimming) -> Vec<(String, f64)> {
+    let dimmed = found.groups.iter().zip(&found.solution.levels).filter(|(_, level)| **level < 1.0);
+    dimmed.flat_map(|(group, level)| group.prims.iter().map(|prim| (prim.clone(), *level))).collect()
 }
 
-fn show(options: &DimOptions, problem: &Problem, groups: &[LightGroup], solution: &Solution) {
+fn show(options: &DimOptions, found: &Dimming) {
     if options.measuring.json {
-        print(&shown::as_json(problem, groups, solution).to_string());
+        print(&found.json().to_string());
         return;
     }
-    shown::lines(groups, solution).iter().for_each(|line| print(line));
+    shown::lines(found).iter().for_each(|line| print(line));
     options.output.iter().filter(|_| !options.measuring.quiet).for_each(|output| print_path(output));
 }

@@ -42,6 +42,7 @@ __all__ = [
     "RayHits",
     "Reading",
     "compute",
+    "dim",
     "false_colour",
     "glare",
     "measure",
@@ -220,6 +221,19 @@ class Measurements:
     def diagnostics(self) -> list[tuple[str, str]]: ...
     def csv(self) -> str: ...
 
+def dim(
+    scene: Scene,
+    targets: Sequence[str],
+    *,
+    watts: Mapping[str, float] | None = None,
+    fixed: Mapping[str, float] | None = None,
+    min_level: float = 0.0,
+    near: Mapping[str, float] | str | None = None,
+    errors: float = 0.0,
+    samples: int = 4096,
+    max_bounces: int | None = None,
+    cancelled: Callable[[], bool] | None = None,
+) -> dict[str, Any]: ...
 def measure(
     scene: Scene,
     *,

@@ -1,12 +1,12 @@
 //! What is to be reached, by the quantity of what it names.
 
 use super::{
-    groups::{LightGroup, numbers},
-    told::told,
+    DimTask, Near,
+    groups::{LightGroup, check_numbers},
+    told,
 };
-use crate::arguments::DimOptions;
-use gonio::{
-    Error, Result,
+use crate::{
+    error::{Error, Result},
     scene::{Measurand, Scene},
 };
 use gonio_dimming::{Goal, Target};
@@ -22,9 +22,9 @@ pub(super) struct Asked {
 }
 
 impl Asked {
-    pub(super) fn new(options: &DimOptions, scene: &Scene, groups: &[LightGroup]) -> Result<Self> {
-        let targets = options.target.iter().map(|text| Target::parse(text)).collect::<std::result::Result<Vec<_>, _>>();
-        let mut asked = Self { light: Vec::new(), glare: Vec::new(), goal: goal(options, groups)? };
+    pub(super) fn new(task: &DimTask<'_>, scene: &Scene, groups: &[LightGroup]) -> Result<Self> {
+        let targets = task.targets.iter().map(|text| Target::parse(text)).collect::<std::result::Result<Vec<_>, _>>();
+        let mut asked = Self { light: Vec::new(), glare: Vec::new(), goal: goal(&task.near, groups)? };
         let mut known: Vec<(&str, Measurand)> = scene.meters.iter().map(|meter| (&*meter.origin.name, meter.measurand)).collect();
         known.extend(scene.grids.iter().map(|grid| (&*grid.origin.name, grid.measurand)));
         for target in targets.map_err(|error| told("target", error))? {
@@ -55,18 +55,15 @@ impl Asked {
     }
 }
 
-/// What `--near` asks for.
-fn goal(options: &DimOptions, groups: &[LightGroup]) -> Result<Goal> {
-    match &options.near[..] {
-        [] => return Ok(Goal::LeastPower),
-        [one] if one == "equal" => return Ok(Goal::Equal),
-        several if several.iter().any(|text| text == "equal") => {
-            return Err(Error::setting("near", "'equal' stands alone, expected it or GROUP=LEVEL"));
-        }
-        _ => {}
-    }
+/// What is sought by the groups' order.
+fn goal(near: &Near, groups: &[LightGroup]) -> Result<Goal> {
+    let wished = match near {
+        Near::LeastPower => return Ok(Goal::LeastPower),
+        Near::Equal => return Ok(Goal::Equal),
+        Near::Levels(wished) => wished,
+    };
     let names: Vec<String> = groups.iter().map(|group| group.group.name.clone()).collect();
-    let wished = numbers("near", &options.near, &names)?;
+    check_numbers("near", wished, &names)?;
     if let Some((name, level)) = wished.iter().find(|(_, level)| *level > 1.0) {
         return Err(Error::setting("near", format!("group '{name}' is to be near {level}, expected a level from 0 to 1")));
     }
