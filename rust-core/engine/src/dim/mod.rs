@@ -30,6 +30,7 @@ pub enum Near {
 }
 
 /// What is asked of a scene that has meters and grids.
+#[expect(missing_debug_implementations, reason = "it holds a function")]
 pub struct DimTask<'a> {
     /// Targets as `gonio_dimming::Target::parse` reads them.
     pub targets: &'a [String],
