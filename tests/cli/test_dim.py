@@ -183,7 +183,7 @@ def test_numbers_that_are_none_are_refused(run, stage, arguments):
 
 
 def test_python_finds_the_same_levels(run, stage):
-    targets = ("Floor.mean>=300", "Floor.uo>=0.5")
+    targets = ("Floor.mean>=120", "Floor.uo>=0.5")
     watts = {f"g{k}": value for k, value in enumerate(WATTS)}
     command = dimmed(run, stage, *options(*targets))
     scene = gonio.load_usd(str(stage))

@@ -49,7 +49,7 @@ impl<'py> ser::Serializer for Writer<'py> {
     type SerializeTuple = List<'py>;
     type SerializeTupleStruct = List<'py>;
     type SerializeTupleVariant = List<'py>;
-    type SerializeMap = ser::Impossible<Self::Ok, Problem>;
+    type SerializeMap = Map<'py>;
     type SerializeStruct = Dictionary<'py>;
     type SerializeStructVariant = Dictionary<'py>;
 
@@ -110,8 +110,8 @@ impl<'py> ser::Serializer for Writer<'py> {
     ) -> Result<List<'py>, Problem> {
         self.list(Some(variant))
     }
-    fn serialize_map(self, _length: Option<usize>) -> Result<Self::SerializeMap, Problem> {
-        Err(ser::Error::custom("descriptions have no maps"))
+    fn serialize_map(self, _length: Option<usize>) -> Result<Map<'py>, Problem> {
+        Ok(Map { writer: self, dictionary: PyDict::new(self.py), key: None })
     }
     fn serialize_struct(self, _name: &'static str, _length: usize) -> Result<Dictionary<'py>, Problem> {
         self.dictionary(None)
@@ -162,3 +162,26 @@ macro_rules! grows {
 grows! { List, list: SerializeSeq serialize_element, SerializeTuple serialize_element, SerializeTupleStruct serialize_field,
 SerializeTupleVariant serialize_field }
 grows! { Dictionary, dictionary: SerializeStruct serialize_field name, SerializeStructVariant serialize_field name }
+
+/// A dictionary whose keys are values.
+pub(super) struct Map<'py> {
+    writer: Writer<'py>,
+    dictionary: Bound<'py, PyDict>,
+    /// Of the value that follows.
+    key: Option<Bound<'py, PyAny>>,
+}
+
+impl<'py> ser::SerializeMap for Map<'py> {
+    type Ok = Bound<'py, PyAny>;
+    type Error = Problem;
+    fn serialize_key<T: Serialize + ?Sized>(&mut self, key: &T) -> Result<(), Problem> {
+        self.key = Some(key.serialize(self.writer)?);
+        Ok(())
+    }
+    fn serialize_value<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Problem> {
+        Ok(self.dictionary.set_item(self.key.take(), value.serialize(self.writer)?)?)
+    }
+    fn end(self) -> Written<'py> {
+        Ok(self.dictionary.into_any())
+    }
+}
