@@ -1,4 +1,4 @@
-"""All that measures finds the same lux, in twelve scenes whose light comes by glass, mirrors and diffusers.
+"""All that measures finds the same lux, in fourteen scenes whose light comes by glass, mirrors, diffusers and fog.
 
 A square of 0.4 m on the floor is measured by an illumination map, a calculation grid, a baked texture, the illuminance pass and the luminance of a
 picture, π / ρ times. Of luminaires a goniophotometer makes an EULUMDAT file too, which lights the same square in an empty room. Each is held to the map, which
@@ -10,11 +10,14 @@ import math
 import gonio
 import numpy as np
 import pytest
-from small_scenes import QUAD, at, ball
+from gonio.medium import medium
+from small_scenes import QUAD, at, ball, closure
 
 HALF = 0.2
 SQUARE = np.array([[-HALF, -HALF, 0], [HALF, -HALF, 0], [HALF, HALF, 0], [-HALF, HALF, 0]], "f4")
 GREY = 0.5
+# Where the lamps are a kilometre high.
+FAR = -999.0
 # Above the square's middle, looking down.
 HEIGHT = 0.3
 DOWN = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, HEIGHT], [0, 0, 0, 1]]
@@ -29,11 +32,16 @@ def lies(scene, points, triangles, transform=None, name="part", normals=None, **
     return mesh
 
 
-def box(scene, low, high, name="block", **material):
+def corners_of(low, high):
+    """Points and triangles of a box."""
     (x, y, z), (u, v, w) = low, high
     points = [[x, y, z], [u, y, z], [u, v, z], [x, v, z], [x, y, w], [u, y, w], [u, v, w], [x, v, w]]
     quads = [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]
-    lies(scene, points, [[q[0], q[i], q[i + 1]] for q in quads for i in (1, 2)], name=name, **material)
+    return points, [[q[0], q[i], q[i + 1]] for q in quads for i in (1, 2)]
+
+
+def box(scene, low, high, name="block", **material):
+    lies(scene, *corners_of(low, high), name=name, **material)
 
 
 def sphere(scene, radius, middle, name, outwards=True, squash=1.0, **material):
@@ -121,6 +129,16 @@ def prism(scene):
     lies(scene, points, sides, name="prism", **CLEAR)
 
 
+def fog(scene):
+    """A lamp in a box of fog: nine tenths of what meets it are scattered, mostly forwards."""
+    lamp(scene)
+    points, triangles = corners_of([-0.5, -0.5, 0.4], [0.5, 0.5, 1.3])
+    droplets = {"origin": "fog", "closures": [closure("Transparent", base_color=1.0)], "medium": medium(scattering=0.9, absorption=0.1, anisotropy=0.6)}
+    mesh = scene.add_mesh(np.array(points, "f4"), np.array(triangles, "i4"), name="fog")
+    scene.add_instance(mesh, [scene.put_material(droplets)], name="/fog")
+
+
+
 def room(scene, panes):
     """A white room whose wall towards −y has an opening with panes of solid glass."""
     white = {"base_color": (0.7, 0.7, 0.7), **MATT}
@@ -168,6 +186,7 @@ SCENES = {
     "louvre": (louvre, GREY, WIDE),
     "double glazing": (double_glazing, GREY, NO_LUMINAIRE),
     "prism": (prism, GREY, WIDE),
+    "fog": (fog, GREY, WIDE),
 }
 # What of it a picture shows through the water's surface, which mirrors two per cent; radiance thins out by the squared index on its way into the air.
 THROUGH_WATER = 1 - (0.33 / 2.33) ** 2
@@ -185,8 +204,8 @@ def built(make, reflectance):
     return scene, square
 
 
-def of_map(scene):
-    found = gonio.illumination_map(scene, prims=["/square"], error=0.0, paths=1 << 21, texel=HALF).surfaces[0]
+def of_map(scene, texel=HALF):
+    found = gonio.illumination_map(scene, prims=["/square"], error=0.0, paths=1 << 21, texel=texel).surfaces[0]
     return found.mean(), found.flux_error() / found.area
 
 
@@ -222,18 +241,19 @@ def of_picture(scene, reflectance):
     return {"pass": mean_of(film, "illuminance"), "picture": (scale * luminance, scale * error)}
 
 
-def of_file(make, tmp_path):
+def of_file(make, tmp_path, half=HALF, floor=0.002, **steps):
+    """Of the square's middle parts, by the file that the goniophotometer makes of the scene's luminaire."""
     alone = gonio.Scene()
     make(alone)
-    gonio.goniometer(alone, down=(0, 0, -1), c_step=30.0, g_step=5.0, error=0.01, rays=1 << 21).write(tmp_path / "lamp.ldt")
+    gonio.goniometer(alone, down=(0, 0, -1), **{"c_step": 30.0, "g_step": 5.0, "error": 0.01, "rays": 1 << 21} | steps).write(tmp_path / "lamp.ldt")
     goniogram, _ = gonio.read_goniogram((tmp_path / "lamp.ldt").read_bytes(), "lamp.ldt")
     scene = gonio.Scene()
     # Files tell the opening's size, not its place: of these lamps it is about the lamp.
     scene.add_light("point", goniogram=goniogram, transform=at(0, 0, 1))
-    side = np.arange(-0.175, 0.2, 0.05)
+    side = half * (np.arange(8) - 3.5) / 4
     for x in side:
         for y in side:
-            scene.add_meter((x, y, 0.002))
+            scene.add_meter((x, y, floor))
     readings = [meter.value for meter in gonio.measure(scene, samples=16).meters]
     return float(np.mean(readings)), 0.01 * float(np.mean(readings))
 
@@ -253,3 +273,17 @@ def test_all_ways_give_the_same_lux(name, tmp_path):
         value, own = (number / seen for number in found[way])
         assert abs(value - lux) < 4.0 * math.hypot(error, own) + 0.02 * lux, (name, way, value, own, lux, error)
         assert own < 0.1 * lux, (name, way, value, own)
+
+
+@pytest.mark.parametrize("name", [name for name, (_, _, left_out) in SCENES.items() if left_out.get("file") == WIDE["file"] and name != "under water"])
+def test_files_of_wide_luminaires_light_what_is_far_off(name, tmp_path):
+    """From a kilometre any of them is small: a square of 400 m gets as much of the file as of the luminaire."""
+    make = SCENES[name][0]
+    scene = gonio.Scene()
+    scene.set(max_bounces=24, threads=2)
+    lies(scene, 1000 * SQUARE + np.array([0, 0, FAR], "f4"), QUAD, name="square", base_color=(0, 0, 0), **MATT)
+    make(scene)
+    lux, error = of_map(scene, 1000 * HALF)
+    found, own = of_file(make, tmp_path, 1000 * HALF, FAR, c_step=15.0, g_step=2.5)
+    print(f"{name}: map {lux:.4g} ± {error:.2g} lx, file {found:.4g}")
+    assert error < 0.02 * lux and abs(found - lux) < 4.0 * math.hypot(error, own) + 0.01 * lux, (lux, error, found)
