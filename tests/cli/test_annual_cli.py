@@ -157,6 +157,21 @@ def test_blocks_tell_standard_errors(run, folder):
     assert "sDA 300/50 %" in text and "±" in text and "not known without coefficients of the sun" in text
 
 
+@pytest.mark.parametrize("parts", [12, 4, 1])
+@pytest.mark.parametrize("first", [1.0, 0.0, 0.5], ids=["ends", "starts", "middles"])
+def test_hours_may_be_counted_by_their_ends(run, folder, parts, first):
+    """Files of parts of an hour go from 1.000 to 24.917 where hours are told by their ends. It is light from 9 o'clock on: an hour off is seen."""
+    rows = zip(DATES, DIRECT, DIFFUSE, strict=True)
+    shift = 0.5 / parts if first == 0.5 else first
+    times = np.arange(parts) / parts + shift
+    text = [f"{month} {day} {hour + time:.3f} {sun:.0f} {sky:.0f}\n" for (month, day, hour), sun, sky in rows for time in times]
+    (folder / "parts.wea").write_text(HEAD + "".join(text))
+    coefficients = saved(folder / "room.npy", level(0.02, 0.03))
+    asked = ("--coefficients", coefficients, "--schedule", "9-12")
+    (found,), (hours,) = (calculated(run, folder, *asked, weather=name)["grids"] for name in ("parts.wea", "year.wea"))
+    assert found["mean_lx"] == pytest.approx(hours["mean_lx"], rel=0.01)
+
+
 BAD = [
     (("--schedule", "18-8"), "schedule: 18-8 was found"),
     (("--schedule", "noon"), "'noon' was found, expected hours such as 8-18, or a file"),

@@ -97,6 +97,53 @@ def test_walls_throw_shadows_and_give_nothing_back(tmp_path, run):
     assert behind["lx"] == 0.0
 
 
+GLASS = """def Material "Glass"
+{
+    token outputs:mtlx:surface.connect = </Glass/S.outputs:out>
+    def Shader "S"
+    {
+        uniform token info:id = "ND_open_pbr_surface_surfaceshader"
+        float inputs:transmission_weight = 1
+        float inputs:specular_roughness = 0
+        token outputs:out
+    }
+}
+"""
+BALL = """def Sphere "NAME" (prepend apiSchemas = ["MaterialBindingAPI"])
+{
+    double radius = RADIUS
+    uniform token orientation = "SIDE"
+    rel material:binding = </Glass>
+    double3 xformOp:translate = (0, 0, 2.5)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+"""
+SHELL = "".join(
+    BALL.replace("NAME", name).replace("RADIUS", radius).replace("SIDE", side)
+    for name, radius, side in (("Outside", "0.1", "rightHanded"), ("Inside", "0.09", "leftHanded"))
+)
+PANE = """def Mesh "Pane" (prepend apiSchemas = ["MaterialBindingAPI"])
+{
+    uniform token subdivisionScheme = "none"
+    int[] faceVertexCounts = [4, 4]
+    int[] faceVertexIndices = [0, 1, 2, 3, 7, 6, 5, 4]
+    point3f[] points = [(-2, -2, 2.1), (2, -2, 2.1), (2, 2, 2.1), (-2, 2, 2.1), (-2, -2, 2), (2, -2, 2), (2, 2, 2), (-2, 2, 2)]
+    rel material:binding = </Glass>
+}
+"""
+
+
+@pytest.mark.parametrize("glass", ["", SHELL, PANE], ids=["bare", "in a shell", "behind a pane"])
+def test_light_by_glass_is_left_out_and_told(tmp_path, run, glass):
+    plan = '[[place]]\nname = "Below"\nposition = [0, 0, 0]\nfacing = [0, 0, 1]\n'
+    command = written(tmp_path, lamp("A", 0), GLASS + glass, plan)
+    command.remove("-q")
+    done = run(*command, "--json")
+    (place,) = json.loads(done.stdout)["places"]
+    assert place["lx"] == pytest.approx(0.0 if glass else straight(0, lamps=((0, LUMENS),)), rel=2e-3)
+    assert ("leave out light that mirrors and glass send on" in done.stderr) == bool(glass), done.stderr
+
+
 def test_an_area_and_its_words(tmp_path, run):
     plan = '[[area]]\nname = "Hall"\noutline = [[0, -2, 0], [8, -2, 0], [8, 2, 0], [0, 2, 0]]\nspacing = 1\n'
     command = written(tmp_path, lamp("A", 0) + lamp("B", 8), plan=plan)
