@@ -14,7 +14,7 @@ from ..units import LUMENS_PER_WATT
 from . import stand_ins, wanted
 from .environment import seen_of_world
 from .kinds import FEW_SAMPLES, Kind, colour_of, kind_of
-from .places import Places, read_places, texture_coordinates
+from .places import Places, read_places, texture_coordinates, within_faces
 
 
 def bake(engine, depsgraph, layer, thing, name: str, pass_filter: int, size: tuple[int, int]) -> None:
@@ -32,6 +32,8 @@ def bake(engine, depsgraph, layer, thing, name: str, pass_filter: int, size: tup
         if kind.meaning == "uv":
             pixels = texture_coordinates(thing.data, places)
         else:
+            if places.are_points and kind.passes != ("P",):
+                places = within_faces(thing, places)
             pixels = _rendered(engine, depsgraph, layer, entry, kind, places)
             if pixels is not None and kind.meaning == "light" and depsgraph.scene.gonio.use_denoising:
                 pixels = _denoised(pixels, depsgraph.scene, layer.report)
