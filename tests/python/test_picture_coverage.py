@@ -117,3 +117,14 @@ def test_parts_of_a_render_know_their_holes(tmp_path):
         parts.append(tmp_path / f"{first}.part")
     whole, merged = finished(edge("Holdout", sky=SKY, samples=512)), gonio.merge(parts)
     assert (shown(merged, tmp_path / "a.png") == shown(whole, tmp_path / "b.png")).all()
+
+
+def test_a_denoiser_lets_no_light_out_to_nothing(tmp_path):
+    pytest.importorskip("pyoidn")
+    film = finished(edge(samples=16, passes=["color", "denoising_albedo", "denoising_normal"]))
+    coverage, clean = np.asarray(film["color"])[..., 3], gonio.denoise(film)
+    assert (np.asarray(clean["color"])[coverage == 0] == 0).all()
+    # Nor is the picture's brightness that of what leaked.
+    pixels, plain = (shown(each, tmp_path / f"{name}.png") for name, each in (("clean", clean), ("plain", film)))
+    assert (pixels[coverage == 0] == 0).all() and np.abs(pixels[..., 3] - plain[..., 3]).max() <= 1
+    assert np.abs(pixels[coverage == 1] - plain[coverage == 1]).mean() < 3

@@ -63,6 +63,9 @@ def _denoised(
     # Without what mirrors and glass show of lights, the colour has no edges that the guides do not have.
     rest = color if light is None else numpy.maximum(color - light, 0.0)
     denoised = pyoidn.denoise(numpy.ascontiguousarray(rest, numpy.float32), hdr=True, clean_aux=bool(guides), **guides)
+    if normal is not None:
+        # Beside edges the filter lets light out to where nothing is: normals, whose samples are others, are short or none there.
+        denoised[~rest.any(axis=-1) & (numpy.square(normal).sum(axis=-1) < 0.25)] = 0.0
     return denoised if light is None else denoised + light
 
 
