@@ -5,13 +5,13 @@ from contextlib import nullcontext
 
 import gonio
 import numpy as np
-from gonio.oidn import denoised_bytes
 
 from ..export.colour_management import to_working
 from ..session.result import POLL, open_result
 from ..session.status import text
 from ..units import LUMENS_PER_WATT
 from . import stand_ins, wanted
+from .denoised import denoised
 from .environment import seen_of_world
 from .kinds import FEW_SAMPLES, Kind, colour_of, kind_of
 from .places import Places, read_places, texture_coordinates, within_faces
@@ -36,7 +36,7 @@ def bake(engine, depsgraph, layer, thing, name: str, pass_filter: int, size: tup
                 places = within_faces(thing, places)
             pixels = _rendered(engine, depsgraph, layer, entry, kind, places)
             if pixels is not None and kind.meaning == "light" and depsgraph.scene.gonio.use_denoising:
-                pixels = _denoised(pixels, depsgraph.scene, layer.report)
+                pixels = denoised(pixels, places.known, depsgraph.scene, layer.report)
         if pixels is not None:
             _write(result, pixels, is_colour=kind.meaning in ("light", "world"))
 
@@ -94,17 +94,6 @@ def _stand_in(exporter, kind: Kind, materials, scene):
         distance = float(scene.world.light_settings.distance) if scene.world is not None else 10.0
         return stand_ins.standing_in(exporter, materials, lambda description: stand_ins.occlusion(description, distance))
     return nullcontext()
-
-
-def _denoised(pixels: np.ndarray, scene, report) -> np.ndarray:
-    """Light without most of its noise; as it is, with a line, where there is no denoiser."""
-    height, width, _ = pixels.shape
-    try:
-        quiet = denoised_bytes(width, height, np.ascontiguousarray(pixels, np.float32).tobytes(), None, None, None)
-    except gonio.UnsupportedError:
-        report.tell("bake denoising", "Scene", scene.name)
-        return pixels
-    return np.frombuffer(quiet, np.float32).reshape(height, width, 3)
 
 
 def _write(result, pixels: np.ndarray, *, is_colour: bool) -> None:
