@@ -269,3 +269,52 @@ def test_matrices_are_computed_of_what_varies(tmp_path):
     found, _ = shown(tmp_path / "a.usda", 5, 'def "L" (references = @doc.mtlx@</MaterialX>) {}\n', *squares)
     once = np.array([0.25, 0.5, 1]) @ rows
     assert found == pytest.approx(np.array([once, (0.25, 0.5, 1), 2 * once, 2 * once, 2 * once]), abs=1e-4)
+
+
+def test_matrices_are_multiplied_transposed_and_measured(tmp_path):
+    """Of three and of four rows, constant and of a primvar."""
+    create = (
+        '<geompropvalue name="r" type="vector3"><input name="geomprop" type="string" value="row"/></geompropvalue>'
+        '<creatematrix name="m" type="matrix33"><input name="in1" type="vector3" nodename="r"/><input name="in2" type="vector3" value="0, 0.5, 0"/>'
+        '<input name="in3" type="vector3" value="0, 0, 1"/></creatematrix>'
+        '<creatematrix name="n" type="matrix44"><input name="in1" type="vector4" value="2, 0, 0, 0"/><input name="in2" type="vector4" value="0, 3, 0, 0"/>'
+        '<input name="in3" type="vector4" value="0, 0, 1, 0"/><input name="in4" type="vector4" value="0.1, 0, 0.2, 1"/></creatematrix>'
+    )
+
+    def two(name, node, one, other):
+        return f'<{node} name="{name}" type="matrix33"><input name="in1" type="matrix33" nodename="{one}"/><input name="in2" type="matrix33" nodename="{other}"/></{node}>'
+
+    def by(name, kind, matrix, value="1, 1, 1"):
+        return (
+            f'<transformmatrix name="t_{name}" type="vector3"><input name="in" type="vector3" value="{value}"/><input name="mat" type="{kind}" nodename="{matrix}"/></transformmatrix>'
+            f'<convert name="c_{name}" type="color3"><input name="in" type="vector3" nodename="t_{name}"/></convert>' + unlit(name, f'nodename="c_{name}"')
+        )
+
+    text = (
+        create + two("p", "multiply", "m", "m") + two("q", "divide", "p", "m")
+        + '<transpose name="x" type="matrix33"><input name="in" type="matrix33" nodename="m"/></transpose>'
+        '<determinant name="d" type="float"><input name="in" type="matrix33" nodename="m"/></determinant>'
+        '<convert name="c_d" type="color3"><input name="in" type="float" nodename="d"/></convert>'
+        + by("A", "matrix33", "p") + by("B", "matrix33", "q") + by("C", "matrix33", "x") + by("D", "matrix44", "n", "0.1, 0.2, 0.3") + unlit("E", 'nodename="c_d"')
+    )  # fmt: skip
+    (tmp_path / "doc.mtlx").write_text(library(text))
+    squares = [square(number, f"/L/Materials/{name}", "vector3f[] primvars:row = [(0.5, 0.25, 0)]") for number, name in enumerate("ABCDE")]
+    found, _ = shown(tmp_path / "a.usda", 5, 'def "L" (references = @doc.mtlx@</MaterialX>) {}\n', *squares)
+    m, ones = np.array([(0.5, 0.25, 0), (0, 0.5, 0), (0, 0, 1)]), np.ones(3)
+    expected = [ones @ m @ m, ones @ m, m @ ones, (0.3, 0.6, 0.5), [np.linalg.det(m)] * 3]
+    assert found == pytest.approx(np.array(expected), abs=1e-4)
+
+
+def test_prefixes_of_files_and_spaces_of_graphs(tmp_path):
+    """As the document, a graph and a definition's graph have them."""
+    (tmp_path / "maps").mkdir()
+    pictures.write_png(tmp_path / "maps" / "f.png", np.full((2, 2, 3), BYTES, dtype=np.uint8))
+    image = '<image name="{}" type="color3"><input name="file" type="filename" value="f.png"/></image>'
+    text = (
+        f'<nodegraph name="G" colorspace="gamma22">{image.format("i")}<output name="o" type="color3" nodename="i"/></nodegraph>\n'
+        '<nodedef name="ND_seen" node="seen"><output name="out" type="color3"/></nodedef>'
+        f'<nodegraph name="NG_seen" nodedef="ND_seen" colorspace="gamma18">{image.format("i")}<output name="out" type="color3" nodename="i"/></nodegraph>\n'
+        '<seen name="s" type="color3"/>' + image.format("j") + unlit("A", 'nodegraph="G"') + unlit("B", 'nodename="s"') + unlit("C", 'nodename="j"')
+    )
+    found, _ = colours(tmp_path, text, "A", "B", "C", space='colorspace="lin_rec709" fileprefix="maps/"')
+    assert found == pytest.approx(np.array([RAW**2.2, RAW**1.8, RAW]), abs=3e-3)
