@@ -26,7 +26,7 @@ class GONIO_OT_measure_grids(Beside, bpy.types.Operator):
     @classmethod
     def poll(cls, context):
         has_grids = context.scene is not None and any(True for _ in grids_of(context))
-        return can_run(cls, is_engine(context), (has_grids, "No object of the scene is a grid: Object Properties, Measuring Grid"))
+        return can_run(cls, is_engine(context), (has_grids, "No object of the scene is a grid: Object Properties, Calculation Grid"))
 
     def execute(self, context):
         try:

@@ -144,3 +144,45 @@ def test_operators_that_cannot_run_say_why():
         assert fine != bool(words), kind
     kinds = {kind.__name__ for kind in asked}
     assert {"GONIO_OT_measure_grids", "GONIO_OT_expose_for_daylight", "GONIO_OT_bake_illuminance"} <= kinds
+
+
+@pytest.mark.blender
+def test_operators_say_what_the_scene_lacks():
+    """With Gonio as the engine, in a file without anything to work on; the panels that they name are there."""
+    import importlib
+
+    import bpy
+
+    operators = {kind.__name__: kind for kind in importlib.import_module("gonio_extension.operators").CLASSES}
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    scene = bpy.context.scene
+    scene.render.engine = "GONIO"
+    scene.world = scene.world or bpy.data.worlds.new("World")
+
+    def said(name):
+        kind, words = operators[f"GONIO_OT_{name}"], []
+        kind.poll_message_set = classmethod(lambda cls, text: words.append(text))
+        try:
+            return kind.poll(bpy.context), words
+        finally:
+            del kind.poll_message_set
+
+    panels = {getattr(kind, "bl_label", "") for kind in bpy.types.Panel.__subclasses__()}
+    for name in ("measure_grids", "annual_daylight"):
+        could, (words,) = said(name)
+        assert not could and words.startswith("No object of the scene is a grid") and words.rsplit(", ", 1)[1] in panels, words
+    for name, words in (
+        ("bake_illuminance", "No mesh is active in Object Mode"),
+        ("expose_for_daylight", "The world's Daylight is off"),
+        ("point_meter", "The mouse is not over a 3D viewport"),
+    ):
+        assert said(name) == (False, [words])
+    scene.world.gonio.use_daylight, scene.gonio.tone_map = True, "PHOTOGRAPHIC"
+    assert said("expose_for_daylight") == (False, ["Tone mapping sees to the exposure"])
+    bpy.ops.mesh.primitive_plane_add()
+    bpy.context.object.data.materials.append(bpy.data.materials.new("Plain"))
+    bpy.context.object.gonio.is_grid = True
+    scene.gonio.tone_map = "NONE"
+    assert all(said(name) == (True, []) for name in ("measure_grids", "annual_daylight", "bake_illuminance", "expose_for_daylight", "illumination_map"))
+    bpy.ops.object.mode_set(mode="EDIT")
+    assert said("illumination_map") == (False, ["Meshes take attributes in Object Mode alone"])
