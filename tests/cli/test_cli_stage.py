@@ -186,3 +186,69 @@ def test_a_masks_materials_may_stand_in_a_document(run, tmp_path):
     stage = pictures.stage(tmp_path / "m.usda", text, pictures.camera())
     said = json.loads(run("info", stage, "--json", "--mask", "/C").stdout)
     assert said["materials"] == 1 and said["diagnostics"] == [], said["diagnostics"]
+
+
+ELSEWHERE = """
+def Scope "Looks"
+{
+    def Material "Red"
+    {
+        token outputs:surface.connect = </Shared/S.outputs:surface>
+    }
+}
+def Scope "Shared"
+{
+    def Shader "S"
+    {
+        uniform token info:id = "UsdPreviewSurface"
+        color3f inputs:diffuseColor.connect = </Readers/R.outputs:result>
+        token outputs:surface
+    }
+}
+def Scope "Readers"
+{
+    def Shader "R"
+    {
+        uniform token info:id = "UsdPrimvarReader_float3"
+        float3 inputs:fallback = (1, 0, 0)
+        string inputs:varname = "x"
+        float3 outputs:result
+    }
+}
+def Scope "Sets" (prepend apiSchemas = ["CollectionAPI:c"])
+{
+    rel collection:c:includes = </Chosen/A>
+}
+def Xform "Chosen" (prepend apiSchemas = ["MaterialBindingAPI"])
+{
+    rel material:binding:collection:c = [</Sets.collection:c>, </Looks/Red>]
+    def Sphere "A" { }
+    def Sphere "B" { }
+}
+class "_kind" (prepend apiSchemas = ["MaterialBindingAPI"])
+{
+    rel material:binding:full = </Looks/Red>
+}
+def Sphere "Kept" (inherits = </_kind>) { }
+def Mesh "Parted"
+{
+    int[] faceVertexCounts = [3, 3]
+    int[] faceVertexIndices = [0, 1, 2, 0, 2, 1]
+    point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
+    def GeomSubset "first" (prepend apiSchemas = ["MaterialBindingAPI"])
+    {
+        uniform token elementType = "face"
+        uniform token familyName = "materialBind"
+        int[] indices = [0]
+        rel material:binding = </Looks/Red>
+    }
+}
+"""
+
+
+@pytest.mark.parametrize(("path", "materials", "things"), [("/Chosen/A", 1, 1), ("/Kept", 1, 1), ("/Parted", 2, 1)])
+def test_a_masks_materials_are_found_by_collection_class_and_subset(run, tmp_path, path, materials, things):
+    """Their nodes stand in yet other places."""
+    stage = pictures.stage(tmp_path / "m.usda", ELSEWHERE, pictures.camera())
+    said = json.loads(run("info", stage, "--json", "--mask", path).stdout)
+    assert (said["materials"], said["instances"], said["diagnostics"]) == (materials, things, [])
