@@ -113,6 +113,11 @@ class Images:
         kind = self._kinds.get(image.session_uid, image.file_format)
         return image.is_float if kind == MEMORY else kind in PREMULTIPLIED
 
+    def is_seen_through(self, image, report):
+        """Whether an image has pixels that are not opaque."""
+        pixels = self.linear(image, report)
+        return pixels is not None and bool((pixels[..., 3] < 1.0).any())
+
     def linear(self, image, report):
         """Pixels as (height, width, 4), linear Rec.709, the bottom row first; None where there are none."""
         user = self._users.get(image.session_uid)

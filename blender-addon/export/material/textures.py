@@ -165,10 +165,16 @@ def _wrapped_around(t, value, projection):
 def environment_texture(t, node, context, output):
     towards = coordinates(t, node, context, lambda: direction(t) if t.is_world else hit(t, "Position"))
     if t.is_world and node.image is not None:
-        return t.environment(node, context, towards)
-    if node.projection == "MIRROR_BALL":
-        return _sample(t, node, context, mirror_ball(t, towards), "Repeat")
-    return _sample(t, node, context, equirectangular(t, towards), "Repeat")
+        return _hidden(t, node, t.environment(node, context, towards))
+    uv = mirror_ball(t, towards) if node.projection == "MIRROR_BALL" else equirectangular(t, towards)
+    return _hidden(t, node, _sample(t, node, context, uv, "Repeat"))
+
+
+def _hidden(t, node, texel):
+    """A texel of a panorama, whose alpha no output tells: its colours are multiplied by it."""
+    if texel.is_constant or not _is_product(t, node.image) or not t.images.is_seen_through(node.image, t.report):
+        return texel
+    return multiplied_encoded(t, texel, False) if _is_srgb(node.image) else texel * texel.component(3)
 
 
 def equirectangular(t, towards):

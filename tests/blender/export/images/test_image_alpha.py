@@ -172,3 +172,26 @@ def test_lost_pictures_are_clipped_too(tmp_path):
     }
     board(cases, [*PLACES, (-0.6, 1.4, 0)])
     alike(both(tmp_path, lines=("nowhere",)), cases, len(PLACES) + 1)
+
+
+@pytest.mark.blender
+@pytest.mark.parametrize("mode", ["STRAIGHT", "CHANNEL_PACKED"])
+def test_worlds_are_hidden_by_alpha_as_in_cycles(tmp_path, mode):
+    import bpy
+    from beside_cycles import both, scene
+
+    made = scene(16, 8, samples=4)
+    lens = made.camera.data
+    lens.type = "PANO"
+    (lens if hasattr(lens, "panorama_type") else lens.cycles).panorama_type = "EQUIRECTANGULAR"
+    # One colour, for bytes are mixed as codes in Cycles.
+    image = bpy.data.images.new("Even", 4, 4, alpha=True)
+    image.pixels.foreach_set([0.8, 0.5, 0.3, 0.4] * 16)
+    image.alpha_mode = mode
+    tree = made.world.node_tree
+    node = tree.nodes.new("ShaderNodeTexEnvironment")
+    node.image = image
+    tree.links.new(node.outputs["Color"], tree.nodes["Background"].inputs["Color"])
+    cycles, gonio = both(tmp_path, lines=("baked",) if mode == "STRAIGHT" else ())
+    # Products are whole bytes in Cycles.
+    assert cycles.min() > 0.0 and gonio == pytest.approx(cycles, rel=0.02, abs=1e-3)
