@@ -57,7 +57,7 @@ def houses(scene: gonio.Scene) -> None:
         scene.add_material(base_color=(0, 0, 0), emission_color=tuple(luminance * part for part in colour))
         for luminance, colour in ((55.0, (1, 0.72, 0.42)), (30.0, (1, 0.62, 0.3)), (70.0, (1, 0.86, 0.68)), (16.0, (0.55, 0.7, 1)))
     ]
-    shop = scene.add_material(base_color=(0, 0, 0), emission_color=(120, 92, 60))
+    shop = scene.add_material(base_color=(0, 0, 0), emission_color=(64, 44, 25))
     pane = box(scene, (-0.55, 0, -0.02), (0.55, 1.5, 0.02))
     sill = box(scene, (-0.7, -0.1, -0.02), (0.7, 0.0, 0.14))
     front = ROAD + WALK + 0.2
@@ -112,7 +112,7 @@ def main() -> None:
     lamps(scene)
     # What a city's sky has left of the dusk.
     scene.add_light("dome", (0.035, 0.06, 0.13))
-    scene.set(width=960, height=600, samples=160, light_samples=1)
+    scene.set(width=960, height=600, samples=48, light_samples=1)
     scene.add_camera(gonio.look_at((-1.5, 1.55, 7.2), (0.35, 2.35, -14.0)), fov=46)
     finished(scene, sys.argv[1] if len(sys.argv) > 1 else "night_street.png", exposure=-1.2)
 

@@ -1,65 +1,67 @@
-"""A slit of sunlight through a prism of glass onto a screen: `python prism.py prism.png`."""
+"""A slit of sunlight through a prism of glass, on a white table: `python prism.py prism.png`."""
 
 import sys
-from math import cos, radians, sin
-from typing import Any
+from math import cos, radians, sin, tan
 
 import gonio
-import numpy as np
+import numpy
+from shapes import put_box, quad
 
 # Index at 587.56 nm and Abbe number: more dispersion than dense flint, so that the colours lie far apart.
 INDEX, ABBE = 1.6, 15.0
-# Half the least deviation of light through an angle of 60° by that index, and half the slit in metres.
-HALF_DEVIATION, HALF_SLIT = radians(23.13), 0.015
-QUAD = np.array([[0, 1, 2], [0, 2, 3]], np.int32)
-Array = np.ndarray[Any, np.dtype[np.float64]]
-
-
-def quad(centre: Array, u: Array, v: Array) -> Array:
-    """Corners of a parallelogram by its middle and half its sides."""
-    return np.array([centre - u - v, centre + u - v, centre + u + v, centre - u + v])
+# The prism's sides and height, the slit's width and height, the plates' height and how high the sun stands; metres.
+SIDE, TALL, SLIT, OPEN, PLATE, ELEVATION = 0.3, 0.18, 0.012, 0.15, 0.45, radians(6.0)
+# Half the least deviation of light through an angle of 60° by that index.
+HALF_DEVIATION = radians(23.13)
 
 
 def add_prism(scene: gonio.Scene) -> None:
-    """Three sides of 1 m, 2 m long, about the origin; its edges lie along y."""
-    section = ((-0.5, -0.2887), (0.5, -0.2887), (0.0, 0.5774))
-    points = np.array([[x, y, z] for y in (-1.0, 1.0) for x, z in section])
+    """Upright about the y axis, one edge towards -z."""
+    section = [(SIDE / 3**0.5 * sin(radians(turn)), -SIDE / 3**0.5 * cos(radians(turn))) for turn in (0.0, 120.0, 240.0)]
+    points = numpy.array([[x, y, z] for y in (0.001, TALL) for x, z in section], "f4")
     # Fronts look outwards.
-    faces = np.array([[0, 1, 2], [3, 5, 4], [0, 3, 4], [0, 4, 1], [1, 4, 5], [1, 5, 2], [2, 5, 3], [2, 3, 0]], np.int32)
+    faces = numpy.array([[0, 1, 2], [3, 5, 4], [0, 3, 4], [0, 4, 1], [1, 4, 5], [1, 5, 2], [2, 5, 3], [2, 3, 0]], "i4")
     glass = scene.add_material("glass", transmission_weight=1.0, specular_roughness=0.0, specular_ior=INDEX, transmission_dispersion=1.0 / ABBE)
     scene.add_instance(scene.add_mesh(points, faces), [glass])
 
 
-def build() -> gonio.Scene:
-    """The sun, a slit, the prism and a screen that the camera looks at."""
-    scene = gonio.Scene()
-    add_prism(scene)
-    upwards, downwards = (np.array([cos(HALF_DEVIATION), 0.0, sign * sin(HALF_DEVIATION)]) for sign in (1.0, -1.0))
-    along = np.array([0.0, 1.0, 0.0])
-    black = scene.add_material("black", base_color=0.0, specular_weight=0.0)
-    white = scene.add_material("white", base_color=0.8, specular_weight=0.0)
-    before = np.array([-0.25, 0.0, 0.1443]) - 0.6 * upwards
-    across = np.cross(upwards, along)
-    for side in (1.0, -1.0):
-        # Plates so wide that no sun passes them but by the slit.
-        plate = quad(before + side * (HALF_SLIT + 20.0) * across, 20.0 * side * across, 24.0 * along)
-        scene.add_instance(scene.add_mesh(plate, QUAD), [black])
-    screen, upright = np.array([0.25, 0.0, 0.1443]) + 3.0 * downwards, np.cross(along, -downwards)
-    scene.add_instance(scene.add_mesh(quad(screen, 0.6 * upright, 0.9 * along), QUAD), [white])
-    sun = np.eye(4)
-    sun[:3, 0], sun[:3, 1], sun[:3, 2] = along, np.cross(-upwards, along), -upwards
-    scene.add_light("distant", (20_000.0,) * 3, angle=0.05, transform=sun.tolist())
-    seen_from = screen - 2.2 * downwards + 0.3 * upright
-    scene.add_camera(gonio.look_at(seen_from.tolist(), screen.tolist(), up=upright.tolist()), fov=26.0)
-    return scene
+def add_slit(scene: gonio.Scene) -> None:
+    """Two plates with a gap, across the way of light that then meets the prism's middle."""
+    way = numpy.array([cos(HALF_DEVIATION), 0.0, -sin(HALF_DEVIATION)])
+    turn = [[way[0], 0, -way[2], 0], [0, 1, 0, 0], [way[2], 0, way[0], 0], [0, 0, 0, 1]]
+    middle = numpy.array([-SIDE / 4, 0.0, -SIDE / 3**0.5 / 4]) - 0.62 * way
+    turn[0][3], turn[2][3] = middle[0], middle[2]
+    black = scene.add_material("black", base_color=0.02, specular_roughness=0.5)
+    for side in (-1.0, 1.0):
+        low, high = sorted((side * SLIT / 2, side * 3.0))
+        put_box(scene, (-0.008, 0.0, low), (0.008, PLATE, high), black, turn)
+    put_box(scene, (-0.008, OPEN, -SLIT / 2), (0.008, PLATE, SLIT / 2), black, turn)
+    towards = way - numpy.array([0.0, tan(ELEVATION), 0.0])
+    scene.add_light("distant", lux=(60_000.0, 1.0), angle=0.3, transform=gonio.look_at((0, 0, 0), towards.tolist()))
 
 
 def main() -> None:
-    scene = build()
-    scene.set(width=480, height=360, samples=512, spectral=True, caustics="on")
-    with gonio.Render(scene) as rendering:
-        rendering.wait()
-        rendering.film().write_picture(sys.argv[1] if len(sys.argv) > 1 else "prism.png", adapted=1500.0)
+    """Writes the picture."""
+    scene = gonio.Scene()
+    white = scene.add_material("white", base_color=0.8, specular_weight=0.0)
+    quad(scene, [(-3, 0, 3), (3, 0, 3), (3, 0, -3), (-3, 0, -3)], white)
+    add_prism(scene)
+    add_slit(scene)
+    scene.add_light("dome", (9.0, 10.0, 12.0))
+    # What shows the glass: a pale screen behind that its sides mirror.
+    scene.add_light("rectangle", (110.0, 115.0, 130.0), width=1.2, height=0.35, transform=gonio.look_at((-0.1, 0.35, -1.0), (0, 0.1, 0)), visible=False)
+    passes = ["color", "denoising_albedo", "denoising_normal"]
+    scene.set(width=960, height=600, samples=128, spectral=True, caustics="on", passes=passes, film_transparent=False)
+    scene.add_camera(gonio.look_at((0.42, 0.5, 0.86), (0.25, 0.03, 0.03)), fov=37.0)
+    with gonio.Render(scene) as render:
+        render.wait()
+        film = render.film()
+    try:
+        film = gonio.denoise(film)
+    except gonio.UnsupportedError as error:
+        print(error)
+    # An eye that is used to a dim room.
+    film.write_picture(sys.argv[1] if len(sys.argv) > 1 else "prism.png", adapted=80.0)
 
 
 if __name__ == "__main__":
