@@ -314,6 +314,16 @@ READ = {
     "radiance": ("hdr", "glare {}"),
     "compared": ("exr", "compare picture.exr {}"),
     "relit": ("exr", "relight {} -o a.exr"),
+    "shared": ("exr", "share {} -o a.html"),
+    "spectrum csv": ("csv", "spectrum {}"),
+    "spectrum spdx": ("spdx", "spectrum {}"),
+    "road": ("toml", "road {}"),
+    "escape routes": ("toml", "emergency stage.usda --plan {}"),
+    "requirements": ("toml", "verdict {} lamp.ies"),
+    "year of weather": ("epw", "annual stage.usda --grid /Floor --weather {} --spp 16 -o year"),
+    "honeybee": ("hbjson", "render {} -o a.exr"),
+    "ifc": ("ifc", "info {}"),
+    "gldf": ("gldf", "photometry {}"),
 }
 
 
@@ -324,7 +334,7 @@ def test_what_a_command_reads(run, folder, use, kind):
     name = odd(folder, kind, suffix)
     done = run(*line.replace("{}", name).split(), cwd=folder, timeout=SECONDS, preexec_fn=limited)
     refused(done, name)
-    assert not any((folder / target).exists() for target in ("a.exr", "a.png", "a.csv"))
+    assert not any((folder / target).exists() for target in ("a.exr", "a.png", "a.csv", "a.html", "year"))
 
 
 @pytest.mark.parametrize("device", ["/dev/zero", "/dev/urandom", "/dev/full", "/dev/null", "/proc/self/mem", "/"])

@@ -33,8 +33,10 @@ def open_model(path: Path) -> Any:
 
 def _problem(path: Path) -> str | None:
     """What is wrong with a file, as far as its ends tell."""
-    if not path.is_file():
+    if not path.exists():
         return "there is no such file"
+    if not path.is_file():
+        return "a folder, a pipe or a device was found, expected a file"
     try:
         size = path.stat().st_size
         with path.open("rb") as file:
