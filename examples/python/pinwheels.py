@@ -79,7 +79,7 @@ def main() -> None:
         scene.add_instance(curves=scene.add_curves(stick, numpy.array([2], "i4"), 0.018), materials=[wood])
     scene.set(width=960, height=600, samples=128, motion_blur=True)
     scene.add_camera(gonio.look_at((0.1, 0.62, 4.1), (0.05, 0.86, 0.0)), fov=25)
-    finished(scene, sys.argv[1] if len(sys.argv) > 1 else "pinwheels.png", exposure=0.6)
+    finished(scene, sys.argv[1] if len(sys.argv) > 1 else "pinwheels.png", exposure=1.4)
 
 
 if __name__ == "__main__":
