@@ -23,6 +23,12 @@ def test_pictures_have_their_files():
         assert f"out/gallery/{picture.name}" in picture.commands[-1], picture
 
 
+def test_every_python_example_has_its_picture():
+    shown = {picture.source for picture in gallery().PICTURES}
+    examples = {path.relative_to(REPOSITORY).as_posix() for path in (REPOSITORY / "examples" / "python").glob("*.py")}
+    assert examples - shown == {"examples/python/shapes.py"}
+
+
 def test_a_changed_command_is_another_stamp():
     module = gallery()
     first = module.PICTURES[0]
