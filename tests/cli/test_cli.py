@@ -103,6 +103,39 @@ def test_a_normalized_sun_is_told_in_lux_whatever_the_unit(run, tmp_path, metres
         assert "50000 lx on a facing surface" in run("info", stage, *options).stdout
 
 
+def test_parallel_light_has_no_luminance(run, tmp_path):
+    sun = 'def DistantLight "Sun"\n{\n    float inputs:angle = 0\n    float inputs:intensity = 1000\n}\n'
+    negative = 'def SphereLight "Taker"\n{\n    float inputs:intensity = -5\n    color3f inputs:color = (1, 0.5, 0.5)\n}\n'
+    stage = pictures.stage(tmp_path / "a.usda", sun, negative, pictures.camera())
+    told, taker = json.loads(run("info", stage, "--json").stdout)["lights"]
+    assert (told["strength"], told["unit"]) == (pytest.approx(1000), "lx on a facing surface")
+    assert taker["colour"][1] == pytest.approx(taker["colour"][0] / 2) and taker["colour"][0] > 0
+    # It lights so much.
+    done = run("measure", stage, "--at", "0,5,0", "--normal", "0,0,1", "--mask", "/Sun", "--json", "--spp", 16)
+    assert json.loads(done.stdout)["meters"][0]["value"] == pytest.approx(1000, rel=1e-3), done.stderr
+
+
+def test_a_mask_that_names_nothing_is_told(run, tmp_path):
+    stage = pictures.stage(tmp_path / "a.usda", pictures.ROOM, pictures.camera())
+    done = run("info", stage, "--mask", "/Typo")
+    assert "the mask names a prim that is not there" in done.stdout + done.stderr and "/Typo" in done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("kind", ["displacement", "volume", "mtlx:displacement"])
+def test_outputs_that_lead_nowhere_are_told(run, tmp_path, kind):
+    surface = 'def Shader "S"\n{\n    uniform token info:id = "UsdPreviewSurface"\n    token outputs:surface\n}\n'
+    outputs = f"token outputs:surface.connect = </M/S.outputs:surface>\n    token outputs:{kind}.connect = </M/Gone.outputs:out>\n"
+    material = f'def Material "M"\n{{\n    {outputs}    {surface}}}\n'
+    wall = (
+        'def Mesh "W" (prepend apiSchemas = ["MaterialBindingAPI"])\n{\n    int[] faceVertexCounts = [3]\n    int[] faceVertexIndices = [0, 1, 2]\n'
+        "    point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]\n    rel material:binding = </M>\n}\n"
+    )
+    stage = pictures.stage(tmp_path / "a.usda", material, wall, pictures.camera())
+    done = run("info", stage)
+    told = f"its {kind.rpartition(':')[2]} is connected to </M/Gone.outputs:out>, which is not there"
+    assert told in done.stdout + done.stderr, done.stdout + done.stderr
+
+
 def test_info_of_a_frame_and_of_faults(run, tmp_path):
     stage = pictures.stage(tmp_path / "a.usda", pictures.ROOM, pictures.MOVING, pictures.camera(), pictures.BROKEN)
     said = json.loads(run("info", stage, "--json", "--frame", 3).stdout)

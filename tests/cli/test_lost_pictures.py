@@ -122,8 +122,9 @@ def test_closed_standard_streams(command, room, tmp_path, closed):
 
 def test_what_standard_output_loses_is_told(command, room):
     with open("/dev/full", "w") as full:
-        done = subprocess.run([*command, "info", str(room)], stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
-    assert "standard output" in error_of(done)
+        for words in (["info", str(room)], ["--help"], ["measure", "--help"], ["--version"]):
+            done = subprocess.run([*command, *words], stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+            assert "standard output" in error_of(done), words
 
 
 @pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP"])

@@ -1,4 +1,4 @@
-"""All that measures finds the same lux, in fourteen scenes whose light comes by glass, mirrors, diffusers and fog.
+"""All that measures finds the same lux, in fifteen scenes whose light comes by glass, mirrors, diffusers and fog.
 
 A square of 0.4 m on the floor is measured by an illumination map, a calculation grid, a baked texture, the illuminance pass and the luminance of a
 picture, π / ρ times. Of luminaires a goniophotometer makes an EULUMDAT file too, which lights the same square in an empty room. Each is held to the map, which
@@ -129,14 +129,22 @@ def prism(scene):
     lies(scene, points, sides, name="prism", **CLEAR)
 
 
-def fog(scene):
-    """A lamp in a box of fog: nine tenths of what meets it are scattered, mostly forwards."""
-    lamp(scene)
+def fog_bank(scene):
+    """A box of fog about the lamp's place: nine tenths of what meets it are scattered, mostly forwards."""
     points, triangles = corners_of([-0.5, -0.5, 0.4], [0.5, 0.5, 1.3])
     droplets = {"origin": "fog", "closures": [closure("Transparent", base_color=1.0)], "medium": medium(scattering=0.9, absorption=0.1, anisotropy=0.6)}
     mesh = scene.add_mesh(np.array(points, "f4"), np.array(triangles, "i4"), name="fog")
     scene.add_instance(mesh, [scene.put_material(droplets)], name="/fog")
 
+
+def fog(scene):
+    lamp(scene)
+    fog_bank(scene)
+
+
+def shell_in_fog(scene):
+    shell(scene)
+    fog_bank(scene)
 
 
 def room(scene, panes):
@@ -172,6 +180,7 @@ def double_glazing(scene):
 # By scene: what makes it, the square's reflectance, and which measurements do not apply, with the reason.
 NO_LUMINAIRE = {"file": "light from outside has no luminaire"}
 WIDE = {"file": "nearly as wide as it is far off: its far field is not what lights the square"}
+BY_CHANCE = dict.fromkeys(("bake", "pass", "picture"), "what glass sends into fog is found by chance, which is told")
 SCENES = {
     "glass shell": (shell, GREY, {}),
     "tinted glass": (tinted_shell, GREY, {}),
@@ -187,6 +196,7 @@ SCENES = {
     "double glazing": (double_glazing, GREY, NO_LUMINAIRE),
     "prism": (prism, GREY, WIDE),
     "fog": (fog, GREY, WIDE),
+    "glass shell in fog": (shell_in_fog, GREY, {**WIDE, **BY_CHANCE}),
 }
 # What of it a picture shows through the water's surface, which mirrors two per cent; radiance thins out by the squared index on its way into the air.
 THROUGH_WATER = 1 - (0.33 / 2.33) ** 2

@@ -173,7 +173,8 @@ impl Counted {
         for bin in (0..=BINS).rev() {
             more += f64::from(self.0[bin]) / used;
             if more > EXCEEDED {
-                value = (bin as f64 + 0.5) / BINS as f64;
+                // The last bin is of all above.
+                value = ((bin as f64 + 0.5) / BINS as f64).min(1.0);
                 break;
             }
         }

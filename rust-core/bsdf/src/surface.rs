@@ -101,6 +101,11 @@ impl Surface {
     pub fn is_see_through(&self) -> bool {
         self.lobes.cut_out || self.lobes.straight || (self.switches.thin_walled && self.lobes.transmission)
     }
+    /// Whether light comes out of it on the other side, bent or scattered: glass, thin sheets, and solids that scatter.
+    pub fn lets_light_through(&self) -> bool {
+        let lobes = &self.lobes;
+        lobes.transmission || lobes.cut_out || lobes.straight || lobes.subsurface || self.switches.closure == Closure::Translucent
+    }
     /// Whether it bounds a solid: it bends what goes in. Behind thin walls and what lets light through diffusely lies what is before them.
     pub fn is_solid(&self) -> bool {
         self.lobes.transmission && !self.switches.thin_walled

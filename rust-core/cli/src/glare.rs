@@ -110,6 +110,7 @@ pub(super) fn coverage_json(coverage: &Coverage) -> Value {
         "below": coverage.below,
         "larger_than_0_1_sr": coverage.large,
         "share_left_out": coverage.share_left_out(),
+        "behind_covers": coverage.covered,
     })
 }
 

@@ -20,6 +20,24 @@ pub(super) fn install() {
     });
 }
 
+/// Has signals end the process at once, as without an interpreter: for what is short, and asks nobody whether to go on. Files are whole or not there.
+pub(super) fn leave_to_system() {
+    Python::attach(|py| {
+        let default = || -> PyResult<()> {
+            let signal = py.import("signal")?;
+            for name in ENDING {
+                let Ok(number) = signal.getattr(name) else { continue };
+                if !signal.call_method1("getsignal", (&number,))?.eq(signal.getattr("SIG_IGN")?)? {
+                    signal.call_method1("signal", (number, signal.getattr("SIG_DFL")?))?;
+                }
+            }
+            Ok(())
+        };
+        // Outside the main thread signals belong to the host.
+        let _ = default();
+    });
+}
+
 /// Whether nothing has asked to end; asked now and then while something runs without the interpreter's lock.
 pub(super) fn goes_on(interrupted: &AtomicBool) -> bool {
     let heard = Python::attach(|py| py.check_signals()).is_ok();

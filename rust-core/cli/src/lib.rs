@@ -65,7 +65,7 @@ use gonio::Error;
 use interrupt::INTERRUPTED;
 use messages::{check_printed, say};
 use pyo3::Python;
-use std::sync::atomic::Ordering;
+use std::{io::ErrorKind, sync::atomic::Ordering};
 
 /// Exit status of a run that was interrupted.
 const INTERRUPTED_STATUS: i32 = 130;
@@ -85,13 +85,22 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
     let parsed = match Arguments::try_parse_from(&arguments) {
         Ok(parsed) => parsed,
         Err(error) => {
-            // Help and version are errors of status 0 to clap; if printing fails there is nobody to tell.
-            let _ = error.print();
-            return error.exit_code();
+            // Help and version are errors of status 0 to clap. Who closed a pipe wants no more.
+            return match error.print() {
+                Err(lost) if lost.kind() != ErrorKind::BrokenPipe && !error.use_stderr() => {
+                    say(&format!("error: standard output: {lost}"));
+                    1
+                }
+                _ => error.exit_code(),
+            };
         }
     };
     INTERRUPTED.store(false, Ordering::Relaxed);
-    interrupt::install();
+    if parsed.command.hears_signals() {
+        interrupt::install()
+    } else {
+        interrupt::leave_to_system()
+    }
     if let Command::Render(options) = &parsed.command
         && !options.quiet
     {

@@ -68,5 +68,5 @@ fn name_of(shape: LightShape) -> &'static str {
 /// Linear Rec.709 of luminance 1; `None` for black.
 fn of_luminance_1(radiance: [f32; 3]) -> Option<[f32; 3]> {
     let luminance = luminance_of_pixel(radiance);
-    (luminance > 0.0).then(|| radiance.map(|x| x / luminance))
+    (luminance != 0.0).then(|| radiance.map(|x| x / luminance))
 }

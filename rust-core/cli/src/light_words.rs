@@ -52,6 +52,8 @@ fn emitted(light: &Light, extents: [f64; 3]) -> (f64, &'static str) {
     let strength = f64::from(luminance_of_pixel(light.emission.radiance));
     let unit = match (light.emission.normalized, light.shape) {
         (true, LightShape::Distant { .. }) => "lx on a facing surface",
+        // Parallel light has no luminance.
+        (false, LightShape::Distant { angle_deg }) if angle_deg <= 0.0 => "lx on a facing surface",
         (_, LightShape::Point | LightShape::Opening(_)) => "cd",
         _ => "cd/m²",
     };

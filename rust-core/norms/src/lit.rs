@@ -21,6 +21,9 @@ pub struct Reading {
 }
 
 impl Reading {
+    /// Of a point that has no figure.
+    pub const UNKNOWN: Self = Self { lx: f64::NAN, error: f64::NAN };
+
     pub(crate) fn times(self, factor: f64) -> Self {
         Self { lx: self.lx * factor, error: self.error * factor }
     }
@@ -33,7 +36,7 @@ impl Reading {
 
     /// For people.
     pub(crate) fn told(self) -> String {
-        format!("{:.2} lx ± {:.2}", self.lx, self.error)
+        if self.lx.is_nan() { "unknown".to_owned() } else { format!("{:.2} lx ± {:.2}", self.lx, self.error) }
     }
 }
 
@@ -49,8 +52,11 @@ impl Lit {
         Self { spots: spots.to_vec(), readings: readings.to_vec() }
     }
 
-    /// The least, the greatest, and their mean; nothing of no points.
+    /// The least, the greatest, and their mean; nothing of no points, and all unknown where a point is.
     pub(crate) fn ends(&self) -> Option<[Reading; 3]> {
+        if self.readings.iter().any(|reading| reading.lx.is_nan()) {
+            return Some([Reading::UNKNOWN; 3]);
+        }
         let by = |a: &&Reading, b: &&Reading| a.lx.total_cmp(&b.lx);
         let (least, most) = (self.readings.iter().min_by(by)?, self.readings.iter().max_by(by)?);
         let count = self.readings.len() as f64;

@@ -26,6 +26,8 @@ pub(crate) struct Coverage {
     below: usize,
     /// Rated, but larger than 0.1 sr, for which the rating was not made.
     large: usize,
+    /// Not among the sources: luminaires behind glass or covers, which are not rated.
+    covered: usize,
     /// Share of the sources' illuminance at the eye that is left out, 0 to 1.
     share_left_out: f64,
     /// The same in words; None where all is rated.
@@ -41,6 +43,7 @@ impl Coverage {
             aside: coverage.aside,
             below: coverage.below,
             large: coverage.large,
+            covered: coverage.covered,
             share_left_out: coverage.share_left_out(),
             note: coverage.note(),
         }

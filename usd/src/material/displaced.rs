@@ -7,12 +7,11 @@ use super::neutral::NodeIndex;
 use super::outputs::{DISPLACEMENT, is_preview_surface, source};
 use crate::context::Context;
 use crate::prim::Prim;
-use gonio::scene::{Displacement, DisplacementKind, Graph, Origin};
+use gonio::scene::{Displacement, DisplacementKind, Graph};
 
 /// What displaces a material; its nodes are added to the graph.
 pub(super) fn read<'py>(context: &mut Context<'_, 'py>, material: &Prim<'py>, graph: &mut Graph) -> Option<Displacement> {
-    let origin = Origin::new(material.path());
-    let prim = context.attempt(&origin, "the material's displacement cannot be found", source(material, DISPLACEMENT))??;
+    let prim = source(context, material, DISPLACEMENT)?;
     let document = from_usd::read(prim, &context.time);
     let mut network = Network::new(context, document);
     network.graph = std::mem::take(graph);

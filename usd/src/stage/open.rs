@@ -45,6 +45,9 @@ pub(super) fn open_prepared<'py>(
         // What documents hold was not there before.
         expand_mask(&stage, options).map_err(unreadable)?;
     }
+    for path in masked_nothing(&stage, options).map_err(unreadable)? {
+        diagnostics.push(Diagnostic::warning(&gonio::scene::Origin::new(&path), "the mask names a prim that is not there"));
+    }
     let skeleton::Apart { apart, alike } = skeleton::take_instances_apart(&stage).map_err(unreadable)?;
     if let Some(first) = apart.first() {
         let shown = alike.iter().filter(|(instance, shown)| instance != shown).count();
@@ -150,6 +153,17 @@ fn expand_mask(stage: &Bound<'_, PyAny>, options: &StageOptions) -> PyResult<()>
     }
     stage.call_method1("SetPopulationMask", (mask,))?;
     stage.call_method0("ExpandPopulationMask").map(|_| ())
+}
+
+/// Paths of a mask that name no prim.
+fn masked_nothing(stage: &Bound<'_, PyAny>, options: &StageOptions) -> PyResult<Vec<String>> {
+    let mut missing = Vec::new();
+    for path in &options.population_mask {
+        if !Prim::new(stage.call_method1("GetPrimAtPath", (path,))?).is_valid() {
+            missing.push(path.clone());
+        }
+    }
+    Ok(missing)
 }
 
 fn select_variants(stage: &Bound<'_, PyAny>, options: &StageOptions) -> Result<()> {

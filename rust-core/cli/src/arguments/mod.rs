@@ -248,3 +248,21 @@ pub(super) enum Command {
     /// Write what a shell needs to complete gonio's options.
     Completion(CompletionOptions),
 }
+
+impl Command {
+    /// Whether it asks now and then if a signal wants it to end in order; the others are ended at once.
+    pub(super) fn hears_signals(&self) -> bool {
+        !matches!(
+            self,
+            Self::Merge(_)
+                | Self::Compare(_)
+                | Self::Relight(_)
+                | Self::Photometry(_)
+                | Self::Spectrum(_)
+                | Self::Sensor(_)
+                | Self::Falsecolor(_)
+                | Self::Glare(_)
+                | Self::Completion(_)
+        )
+    }
+}

@@ -1,9 +1,9 @@
 //! `gonio emergency`.
 
-use super::{leave_burning, measure_at, plan, readings};
+use super::{leave_burning, measure_at, not_counted, plan, readings};
 use crate::{
     arguments::EmergencyOptions,
-    measure::{apply_settings, evaluated},
+    measure::{apply_settings, evaluated, watched},
     messages::{print, tell},
     progress::Reporter,
     render::stage_options,
@@ -12,15 +12,22 @@ use crate::{
 use gonio::{
     Result,
     compile::luminous_intensities,
+    measure::{IN_PART, straight_light},
     scene::{Integrator, Scene},
 };
-use gonio_norms::emergency::{Figures, Lamp, Plan, lines};
+use gonio_norms::{
+    Reading, Spot,
+    emergency::{Figures, Lamp, Plan, lines},
+};
 use gonio_usd::meter::axes;
 use pyo3::prelude::*;
 use std::{collections::BTreeMap, sync::atomic::AtomicBool};
 
 /// Degrees between directions in which intensities are asked for, across and down.
 const STEPS_DEG: [f64; 2] = [5.0, 1.0];
+
+/// Metres before a plane from which luminaires are looked at: it may lie on a surface.
+const BEFORE: f64 = 1e-3;
 
 /// Measures what the plan asks for and tells what it comes to.
 pub(crate) fn emergency(py: Python<'_>, options: &EmergencyOptions, interrupted: &'static AtomicBool) -> Result<i32> {
@@ -38,14 +45,31 @@ pub(crate) fn emergency(py: Python<'_>, options: &EmergencyOptions, interrupted:
     tell(&options.stage, options.quiet, &loaded.diagnostics);
     let (dark, lamps) = (scene.without_emission(), seen(scene, &lamps, &plan, up));
     let found = py.detach(|| evaluated(&dark, None, Reporter::new(options.quiet), interrupted))?;
-    tell(&options.stage, options.quiet, &found.diagnostics);
-    let figures = Figures::new(&plan, &spots, &readings(&found), lamps);
+    let (_, covered, _) =
+        py.detach(|| watched(Reporter::new(true), None, interrupted, |watch| straight_light(&dark, &before(&spots), watch)))?;
+    let not_counted = not_counted(&covered, "points", "counted");
+    // What measuring says of integrators is no way out here.
+    let told = found.diagnostics.iter().filter(|diagnostic| not_counted.is_none() || diagnostic.message != IN_PART);
+    tell(&options.stage, options.quiet, &told.chain(&not_counted).cloned().collect::<Vec<_>>());
+    let readings = readings(&found).into_iter().zip(&covered);
+    // Nothing but what is not counted may be all there is: no figure, and no zero.
+    let readings: Vec<Reading> =
+        readings.map(|(reading, covered)| if *covered && reading.lx <= 0.0 { Reading::UNKNOWN } else { reading }).collect();
+    let notes = not_counted.iter().map(|note| note.message.clone()).collect();
+    let figures = Figures::new(&plan, &spots, &readings, lamps).with_notes(notes);
     if options.json {
         print(&figures.json().to_string());
     } else {
         lines(&figures).iter().for_each(|line| print(line));
     }
     Ok(0)
+}
+
+/// Places just before the points' planes.
+fn before(spots: &[Spot]) -> Vec<[f64; 3]> {
+    let lengths = spots.iter().map(|spot| spot.normal.iter().map(|x| x * x).sum::<f64>().sqrt());
+    let place = |(spot, length): (&Spot, f64)| std::array::from_fn(|k| spot.position[k] + BEFORE * spot.normal[k] / length);
+    spots.iter().zip(lengths).map(place).collect()
 }
 
 /// Luminaires with their height above the lowest floor of the plan and their greatest intensity within its angles; lights of one prim are one.

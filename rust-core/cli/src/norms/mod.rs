@@ -7,7 +7,7 @@ pub(super) use {emergency::emergency, sports::sports};
 
 use crate::file;
 use gonio::{
-    Error, Result,
+    Diagnostic, Error, Result,
     measure::Measurements,
     scene::{Light, Meter, Origin, Scene},
 };
@@ -33,6 +33,17 @@ fn measure_at(scene: &mut Scene, spots: &[Spot]) {
     };
     scene.meters = spots.iter().map(meter).collect();
     scene.grids.clear();
+}
+
+/// Says at how many of these places luminaires are seen through glass or covers of the stage alone.
+fn not_counted(covered: &[bool], places: &str, what: &str) -> Option<Diagnostic> {
+    let count = covered.iter().filter(|covered| **covered).count();
+    let message = format!(
+        "{count} of {} {places} see luminaires through glass or covers of the stage alone, whose light is not {what}; give luminaires with their covers by \
+         IES or EULUMDAT files",
+        covered.len()
+    );
+    (count > 0).then(|| Diagnostic::warning(&Origin::new("luminaires"), message))
 }
 
 /// What was found there, in their order.

@@ -1,6 +1,6 @@
 //! `gonio sports`.
 
-use super::{leave_burning, measure_at, plan, readings};
+use super::{leave_burning, measure_at, not_counted, plan, readings};
 use crate::{
     arguments::SportsOptions,
     measure::{apply_settings, evaluated, watched},
@@ -34,11 +34,14 @@ pub(crate) fn sports(py: Python<'_>, options: &SportsOptions, interrupted: &'sta
     let (lit, eyes) = (scene.without_emission(), plan.eyes(up));
     let found = py.detach(|| evaluated(&lit, None, Reporter::new(options.quiet), interrupted))?;
     tell(&options.stage, options.quiet, &found.diagnostics);
-    let (straight, mut diagnostics) =
+    let (straight, covered, mut diagnostics) =
         py.detach(|| watched(Reporter::new(true), None, interrupted, |watch| straight_light(&lit, &eyes, watch)))?;
     let source = |(direction, lx): ([f64; 3], f64)| Source { direction, lx };
     let sources: Vec<Vec<Source>> = straight.into_iter().map(|light| light.into_iter().map(source).collect()).collect();
-    let figures = Figures::new(&plan, up, &readings(&found), &sources);
+    let not_counted = not_counted(&covered, "eyes", "rated as glare");
+    let notes = not_counted.iter().map(|note| note.message.clone()).collect();
+    let figures = Figures::new(&plan, up, &readings(&found), &sources).with_notes(notes);
+    diagnostics.extend(not_counted);
     if figures.has_nearer() {
         let message = "luminaires within 1.5° of a line of sight count as at 1.5°, where CIE 112's formula ends";
         diagnostics.push(Diagnostic::warning(&Origin::new("glare"), message));

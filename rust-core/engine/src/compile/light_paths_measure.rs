@@ -25,10 +25,16 @@ const LEAST_NOISE: f64 = 10.0;
 /// Roughness below which facets are mirrors.
 const SMOOTH: f32 = 5e-3;
 
-/// Whether light may come by glass that is rough, which is no business of light paths else.
-pub(crate) fn is_behind_rough_glass(scene: &CompiledScene, settings: &Settings) -> bool {
+/// Whether light may come by glass that is rough, or by clear glass and then by what scatters in the air, which is no business of light paths else.
+pub(crate) fn may_be_missed(scene: &CompiledScene, settings: &Settings) -> bool {
     let lights = &scene.tables.lights;
-    settings.integrator == Integrator::Path && has_rough_glass(scene) && !(0..lights.len() as u32).any(|light| lights.has_falloff(light))
+    let hides = has_rough_glass(scene) || sends_into_media(scene);
+    settings.integrator == Integrator::Path && hides && !(0..lights.len() as u32).any(|light| lights.has_falloff(light))
+}
+
+/// Whether mirrors and clear glass may send light into what scatters it.
+pub(super) fn sends_into_media(scene: &CompiledScene) -> bool {
+    scene.tables.materials.media.scatters() && bends_light(scene)
 }
 
 /// Whether there is any.

@@ -113,6 +113,9 @@ pub(super) fn decide(compiled: &mut CompiledScene, scene: &Scene, of_light: &[u3
     };
     if traced {
         casters::report_blockers(scene, &compiled.tables.links, &mut compiled.diagnostics);
+        if light_paths_measure::sends_into_media(compiled) {
+            compiled.diagnostics.push(Diagnostic::warning(&Origin::default(), INTO_MEDIA));
+        }
     }
     let sought = scene.settings.caustics == Caustics::Off || !are_possible(compiled, &scene.settings);
     if sought
@@ -123,6 +126,10 @@ pub(super) fn decide(compiled: &mut CompiledScene, scene: &Scene, of_light: &[u3
     }
     Ok(())
 }
+
+/// Said where light paths do without what glass sends into media.
+const INTO_MEDIA: &str = "light that mirrors and clear glass send into fog or other media is found by chance: in pictures, passes and bakes it is noisy, and \
+    lacks the more the smaller its lamps are; meters, grids and illumination maps have it";
 
 /// Said where the illuminance pass is not all of it.
 const ILLUMINANCE_IN_PART: &str = "the illuminance pass leaves out light that mirrors and clear glass send on: it comes by light paths, which these \

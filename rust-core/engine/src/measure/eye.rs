@@ -5,7 +5,7 @@ use super::{
     vector::{Vector, cross, dot, subtract, unit},
 };
 use crate::{
-    accel::RayBatch,
+    accel::{Hits, NONE, RayBatch},
     compile::{CompiledScene, Luminaire},
     error::{Error, Result},
     light::{LightSample, LightSampleContext, LightTable},
@@ -21,6 +21,8 @@ const LAST_INDEX: f64 = 16.0;
 const SMALL: f64 = 0.005;
 /// Share of the way to a luminous part that must be free: the luminaire's own housing may begin there.
 const FREE: f32 = 1.0 - 1e-4;
+/// Panes before a luminaire that are looked through.
+const MOST_PANES: usize = 16;
 /// Parts along a side of an emitter of 1 sr, and the fewest and most along one of any solid angle.
 const FINENESS: f64 = 60.0;
 const PARTS: [f64; 2] = [3.0, 16.0];
@@ -95,9 +97,8 @@ impl Eye {
         }
         let area = solid_angle(&parts) * dot(way, way);
         parts.retain(|part| part.strength > 0.0 && part.weight != Err(NoIndex::Behind));
-        if luminaire.casts_shadow {
-            retain_seen(&mut parts, place, scene);
-        }
+        let is_covered = luminaire.casts_shadow && retain_seen(&mut parts, place, scene);
+        coverage.covered += usize::from(is_covered && parts.is_empty());
         let Some(brightest) = parts.iter().max_by(|a, b| a.light_left_out().total_cmp(&b.light_left_out())) else {
             return Share { tabular: Some(0.0), ..Share::default() };
         };
@@ -108,15 +109,14 @@ impl Eye {
         Share { sum: seen * small, tabular: (area > 0.0 || seen == 0.0).then_some(seen), is_small: seen > 0.0 && area < SMALL }
     }
 
-    /// What comes straight to it from a luminaire's parts that nothing opaque hides, whichever way it looks: unit directions, and lx across them.
-    pub(super) fn straight(&self, luminaire: &Luminaire, scene: &CompiledScene) -> Vec<([f64; 3], f64)> {
+    /// What comes straight to it from a luminaire's parts that nothing opaque hides, whichever way it looks: unit directions, and lx across them. And
+    /// whether it is seen through glass or a cover alone.
+    pub(super) fn straight(&self, luminaire: &Luminaire, scene: &CompiledScene) -> (Vec<([f64; 3], f64)>, bool) {
         let place = subtract(self.position, scene.tables.origin).map(|x| x as f32);
         let mut parts: Vec<Part> = luminaire.emitters.iter().flat_map(|emitter| self.parts(emitter, place)).collect();
         parts.retain(|part| part.light > 0.0);
-        if luminaire.casts_shadow {
-            retain_seen(&mut parts, place, scene);
-        }
-        parts.iter().map(|part| (part.direction.map(f64::from), part.light)).collect()
+        let is_covered = luminaire.casts_shadow && retain_seen(&mut parts, place, scene) && parts.is_empty();
+        (parts.iter().map(|part| (part.direction.map(f64::from), part.light)).collect(), is_covered)
     }
 
     /// A direction to the right, up and ahead.
@@ -177,23 +177,63 @@ fn drawn(emitter: &LightTable, place: [f32; 3], u: [f32; 2]) -> LightSample<One>
     emitter.sample_li(One, None, &eye, One.f(0.5), &u.map(|x| One.f(x)))
 }
 
-/// Drops the parts that something opaque hides.
-fn retain_seen(parts: &mut Vec<Part>, place: [f32; 3], scene: &CompiledScene) {
-    let count = parts.len();
+/// Drops the parts that something opaque hides; whether what hides any of them first lets light through in its own way, as glass and opal covers do.
+fn retain_seen(parts: &mut Vec<Part>, place: [f32; 3], scene: &CompiledScene) -> bool {
+    let ways: Vec<Way> = parts.iter().map(|part| Way { direction: part.direction, from: 0.0, to: part.distance * FREE }).collect();
+    let mut blocked = vec![0; ways.len()];
+    asked(&ways, place, |rays| scene.tables.bvh.any_hit_transparent(Execution::Scalar, rays, &mut blocked, &mut Vec::new()));
+    let hidden: Vec<Way> = ways.iter().zip(&blocked).filter(|(_, blocked)| **blocked != 0).map(|(way, _)| *way).collect();
+    let mut blocked = blocked.into_iter();
+    parts.retain(|_| blocked.next() == Some(0));
+    is_covered(hidden, place, scene)
+}
+
+/// Whether the first thing on any of the ways that shadow rays do not pass lets light through.
+fn is_covered(mut ways: Vec<Way>, place: [f32; 3], scene: &CompiledScene) -> bool {
+    let (materials, geometry) = (&scene.tables.materials, &scene.tables.geometry);
+    for _ in 0..MOST_PANES {
+        if ways.is_empty() {
+            return false;
+        }
+        let mut hits = Hits::default();
+        asked(&ways, place, |rays| scene.tables.bvh.first_hit_in_tree(Execution::Scalar, rays, false, &mut hits));
+        let mut behind = Vec::new();
+        for (ray, way) in ways.iter().enumerate().filter(|(ray, _)| hits.instance[*ray] != NONE) {
+            let material = geometry.material(hits.instance[ray], hits.primitive[ray]);
+            if !materials.lets_light_pass(material) {
+                if materials.lets_light_through(material) {
+                    return true;
+                }
+                continue;
+            }
+            behind.push(Way { from: (hits.t[ray] * (1.0 + 1e-6)).next_up(), ..*way });
+        }
+        ways = behind;
+    }
+    false
+}
+
+/// From the eye, between two distances.
+#[derive(Clone, Copy)]
+struct Way {
+    direction: [f32; 3],
+    from: f32,
+    to: f32,
+}
+
+/// Asks the tree about ways that shadow rays take.
+fn asked(ways: &[Way], place: [f32; 3], ask: impl FnOnce(&RayBatch<'_>)) {
+    let count = ways.len();
     let origin = place.map(|x| vec![x; count]);
-    let direction = [0, 1, 2].map(|k| parts.iter().map(|part| part.direction[k]).collect::<Vec<f32>>());
-    let t_max: Vec<f32> = parts.iter().map(|part| part.distance * FREE).collect();
-    let rays = RayBatch {
+    let direction = [0, 1, 2].map(|k| ways.iter().map(|way| way.direction[k]).collect::<Vec<f32>>());
+    let [t_min, t_max] = [|way: &Way| way.from, |way: &Way| way.to].map(|of| ways.iter().map(of).collect::<Vec<f32>>());
+    ask(&RayBatch {
         origin: origin.each_ref().map(|x| &x[..]),
         direction: direction.each_ref().map(|x| &x[..]),
-        t_min: &vec![0.0; count],
+        t_min: &t_min,
         t_max: &t_max,
         mask: &vec![ray_mask::SHADOW; count],
         time: &[],
         passed: &[],
-    };
-    let mut blocked = vec![0; count];
-    scene.tables.bvh.any_hit_transparent(Execution::Scalar, &rays, &mut blocked, &mut Vec::new());
-    let mut blocked = blocked.into_iter();
-    parts.retain(|_| blocked.next() == Some(0));
+    });
 }

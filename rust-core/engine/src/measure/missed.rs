@@ -1,5 +1,6 @@
-//! What meters' own paths miss behind rough glass. Two rough faces in a row hide a small lamp from them as smooth ones do, but no path is specular there,
-//! and so none is left to light paths. So these follow all light once more, and take the place of the meters' paths where they find more.
+//! What meters' own paths miss behind rough glass, and where glass sends light into fog. Two rough faces in a row hide a small lamp from them as smooth
+//! ones do, and fog behind smooth ones; but no path is specular there, and so none is left to light paths. So these follow all light once more, and take
+//! the place of the meters' paths where they find more.
 
 use super::{
     brought::{Brought, brought},

@@ -158,8 +158,12 @@ fn tell_around(sensed: &sense::Sensed, meters: &[Meter], diagnostics: &mut Vec<D
 }
 
 /// Said where settings leave out what meters exist to find.
-const IN_PART: &str = "the figures leave out light that mirrors and glass send on: it comes by light paths, which these settings do without; they run \
+pub const IN_PART: &str = "the figures leave out light that mirrors and glass send on: it comes by light paths, which these settings do without; they run \
     with the integrator path and two bounces at least";
+
+/// Said where a glare rating knows none of the sources.
+const COVERED: &str = "the luminaires are seen through glass or covers of the scene alone, which are not rated; give luminaires with their covers by IES or \
+    EULUMDAT files";
 
 /// Says over what the light is a mean that light paths bring.
 fn on_discs([least, most]: [f64; 2]) -> String {
@@ -173,7 +177,7 @@ fn on_discs([least, most]: [f64; 2]) -> String {
 /// Says where light paths alone have measured.
 fn behind_rough_glass(missed: usize) -> String {
     format!(
-        "paths from {missed} of the points miss light that comes by rough glass; all but their direct light is the mean over their discs, by light paths"
+        "paths from {missed} of the points miss light that comes by rough glass, or by clear glass and then through fog; all but their direct light is the mean over their discs, by light paths"
     )
 }
 
@@ -186,8 +190,10 @@ fn tell_unknown(meters: &[Meter], readings: &[Found], diagnostics: &mut Vec<Diag
         }
         told.push(meter);
         let [x, y, z] = meter.position;
+        let is_covered = found.rated.is_some_and(|(coverage, _)| coverage.covered > 0);
         let problem = match found.colour.as_ref().filter(|colour| colour.is_known()) {
             Some(colour) => colour.why_undefined(),
+            None if is_covered => COVERED.to_owned(),
             None => "light comes by mirrors or clear glass, and is counted on a disc about the meter, for which a surface leaves no room; move it off"
                 .to_owned(),
         };

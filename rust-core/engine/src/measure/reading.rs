@@ -286,6 +286,18 @@ impl GridReading {
 
     /// In words what the ratings leave out; none where all is rated.
     pub fn coverage_note(&self) -> Option<String> {
+        let notes: Vec<String> = [self.left_out_note(), self.covered_note()].into_iter().flatten().collect();
+        (!notes.is_empty()).then(|| notes.join("; "))
+    }
+
+    fn covered_note(&self) -> Option<String> {
+        let count = self.coverage.iter().filter(|coverage| coverage.covered > 0).count();
+        let points = self.coverage.len();
+        (count > 0)
+            .then(|| format!("{count} of {points} points see luminaires behind glass or covers of the scene alone, which are not rated"))
+    }
+
+    fn left_out_note(&self) -> Option<String> {
         let out: Vec<&Coverage> = self.coverage.iter().filter(|coverage| coverage.left_out() > 0).collect();
         let share = out.iter().map(|coverage| coverage.share_left_out()).fold(0.0, f64::max);
         let most = out.iter().map(|coverage| coverage.left_out()).max()?;

@@ -170,7 +170,7 @@ impl Plan {
         let reach = reaches.fold(radius(scene), f64::max);
         let starts = light_paths_measure::for_meters(scene, &settings, reach, watch.cancel);
         let light_paths = starts.and_then(|starts| LightPaths::bringing(scene, &starts));
-        let rough = light_paths_measure::is_behind_rough_glass(scene, &settings);
+        let rough = light_paths_measure::may_be_missed(scene, &settings);
         let left_out =
             || light_paths_measure::has_rough_glass(scene) || light_paths_measure::is_left_out(scene, &settings, reach, watch.cancel);
         let in_part = !light_paths_measure::are_followed(&settings) && left_out();
@@ -178,11 +178,6 @@ impl Plan {
         let are_wanted = light_paths.is_some() || rough;
         let discs = if are_wanted { probes.iter().zip(&sensors).map(of).collect() } else { Vec::new() };
         Self { sensors, discs: Discs::new(discs), light_paths, rough, in_part }
-    }
-
-    /// Whether light comes to the probes that none of their own paths finds.
-    pub(super) fn is_brought(&self) -> bool {
-        self.light_paths.is_some() || self.rough || self.in_part
     }
 
     /// Measures in the scene that the plan was made for, or as that is in a band of wavelengths.

@@ -34,6 +34,8 @@ pub struct Figures {
     pub(crate) places: Vec<(String, Reading)>,
     pub(crate) lamps: Vec<Lamp>,
     pub(crate) factor: f64,
+    /// What the figures leave out.
+    pub(crate) notes: Vec<String>,
     pub(crate) glare_deg: [f64; 2],
 }
 
@@ -57,7 +59,12 @@ impl Figures {
         let up = spots.first().map_or([0.0, 0.0, 1.0], |spot| spot.normal);
         let areas = plan.areas.iter().map(|area| (area.name.clone(), Lit::new(take(area.points(up).len())))).collect();
         let places = plan.places.iter().map(|place| (place.name.clone(), take(1).1[0])).collect();
-        Self { routes, areas, places, lamps, factor, glare_deg: plan.glare_deg }
+        Self { routes, areas, places, lamps, factor, notes: Vec::new(), glare_deg: plan.glare_deg }
+    }
+
+    /// With what the figures leave out.
+    pub fn with_notes(self, notes: Vec<String>) -> Self {
+        Self { notes, ..self }
     }
 
     /// For machines; `docs/emergency.md` lists the keys.
@@ -76,6 +83,7 @@ impl Figures {
             "areas": self.areas.iter().map(area).collect::<Vec<_>>(),
             "places": self.places.iter().map(place).collect::<Vec<_>>(),
             "glare_deg": self.glare_deg,
+            "notes": self.notes,
             "luminaires": self.lamps.iter().map(lamp).collect::<Vec<_>>(),
         })
     }

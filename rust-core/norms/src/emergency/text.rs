@@ -26,7 +26,10 @@ pub fn lines(found: &Figures) -> Vec<String> {
 
 fn of_lit(name: &str, lit: &Lit) -> Vec<String> {
     let Some([least, most, mean]) = lit.ends() else { return vec![format!("  {name}: no point lies within")] };
-    let ratio = max_to_min(lit).map_or("without light at a point".to_owned(), |[ratio, error]| format!("{ratio:.1} : 1 (± {error:.1})"));
+    let ratio = max_to_min(lit)
+        .map_or(if least.lx.is_nan() { "unknown" } else { "without light at a point" }.to_owned(), |[ratio, error]| {
+            format!("{ratio:.1} : 1 (± {error:.1})")
+        });
     vec![
         format!("  {name}, {} points: least {}, greatest {}, mean {}", lit.readings.len(), least.told(), most.told(), mean.told()),
         format!("    greatest to least: {ratio}"),

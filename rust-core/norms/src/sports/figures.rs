@@ -26,6 +26,8 @@ pub struct Figures {
     /// By name.
     pub(crate) observers: Vec<(String, Rating)>,
     pub(crate) factor: f64,
+    /// What the figures leave out.
+    pub(crate) notes: Vec<String>,
     pub(crate) reflectance: f64,
 }
 
@@ -70,13 +72,18 @@ impl Figures {
             let rated: Vec<_> = points.into_iter().zip(&mut eyes).map(|(point, sources)| (point, rate(found, sources))).collect();
             found.glare = rated;
         }
-        Self { fields, observers, factor: plan.maintenance_factor, reflectance: plan.reflectance }
+        Self { fields, observers, factor: plan.maintenance_factor, notes: Vec::new(), reflectance: plan.reflectance }
     }
 
     /// Whether a luminaire stood nearer to a line of sight than CIE 112's formula holds.
     pub fn has_nearer(&self) -> bool {
         let at_points = self.fields.iter().flat_map(|field| &field.glare).map(|(_, rating)| rating);
         self.observers.iter().map(|(_, rating)| rating).chain(at_points).any(|rating| rating.nearer)
+    }
+
+    /// With what the figures leave out.
+    pub fn with_notes(self, notes: Vec<String>) -> Self {
+        Self { notes, ..self }
     }
 
     /// For machines; `docs/sports.md` lists the keys.
@@ -107,6 +114,7 @@ impl Figures {
         json!({
             "maintenance_factor": self.factor,
             "reflectance": self.reflectance,
+            "notes": self.notes,
             "fields": self.fields.iter().map(field).collect::<Vec<_>>(),
             "observers": self.observers.iter().map(|(name, rating)| of_rating(rating, json!({ "name": name }))).collect::<Vec<_>>(),
         })

@@ -162,6 +162,10 @@ impl MaterialTable {
             Shading::Mix(mix) => self.mixes[mix as usize].lets_light_pass,
         }
     }
+    /// Whether light comes through a material of the geometry, bent or scattered.
+    pub fn lets_light_through(&self, number: u32) -> bool {
+        self.closures(number).iter().any(|closure| closure.surface.lets_light_through())
+    }
     /// Whether light sampling runs programs to know what a material of the geometry emits.
     pub fn emits_by_program(&self, number: u32) -> bool {
         match self.shading(number) {

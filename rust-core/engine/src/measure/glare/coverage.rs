@@ -20,6 +20,8 @@ pub struct Coverage {
     pub aside: usize,
     /// Rated, but larger than 0.1 sr, for which the rating was not made.
     pub large: usize,
+    /// Not among these: luminaires that the eye sees through glass or a cover alone, which are not rated.
+    pub covered: usize,
     /// Illuminance at the eye by all, and by those that are left out, lx.
     pub illuminance: [f64; 2],
 }
@@ -81,7 +83,11 @@ impl Coverage {
             )
         });
         let large = part(self.large, "rated, though larger than 0.1 sr, for which UGR was not made");
-        let all: Vec<String> = [out, large].into_iter().flatten().collect();
+        let covered = part(
+            self.covered,
+            "behind glass or covers of the scene, which are not rated: give luminaires with their covers by IES or EULUMDAT files",
+        );
+        let all: Vec<String> = [out, large, covered].into_iter().flatten().collect();
         (!all.is_empty()).then(|| all.join("; "))
     }
 }
