@@ -55,8 +55,8 @@ PICTURES = (
         "office_luminance.png",
         "Luminances in the office",
         "The first picture in steps of cd/m² over three decades, of its colour after the noise was taken out.",
-        "examples/python/luminance_steps.py",
-        ("python examples/python/luminance_steps.py out/gallery/office.exr out/gallery/office_luminance.png",),
+        OFFICE,
+        ("gonio falsecolor out/gallery/office.exr -o out/gallery/office_luminance.png --quantity luminance --log 3 --steps 9 --max 5000",),
     ),
     Picture(
         "office_plane.png",

@@ -201,6 +201,23 @@ def test_false_colour_of_a_picture(run, stage, tmp_path):
     assert ended.returncode == 1 and "normal.X, normal.Y, normal.Z" in ended.stderr
 
 
+def test_colour_tells_luminances_where_no_pass_does(run, stage, tmp_path):
+    found = {}
+    for image, passes in ((tmp_path / "both.exr", "color,luminance"), (tmp_path / "colour.exr", "color")):
+        run("render", stage(more=VIEW), "-o", image, "--res", 64, 48, "--spp", 4, "--aov", passes, "--exposure", 1.5, "--quiet")
+        run("falsecolor", image, "-o", image.with_suffix(".png"), "--max", 100, "--no-legend")
+        found[passes] = json.loads(run("glare", image, "--json").stdout)["mean_luminance_cd_m2"]
+    # Colours are half floats.
+    assert found["color"] == pytest.approx(found["color,luminance"], rel=1e-3) and found["color"] > 1
+    openexr = pytest.importorskip("OpenEXR")
+    foreign = tmp_path / "foreign.exr"
+    pixels = {name: np.ones((4, 4), "f4") for name in "RGB"}
+    with openexr.File({"compression": openexr.ZIP_COMPRESSION, "type": openexr.scanlineimage}, pixels) as out:
+        out.write(str(foreign))
+    # What 1 amounts to is not guessed.
+    assert "no channel 'luminance'" in run("falsecolor", foreign, "-o", tmp_path / "f.png", check=False).stderr
+
+
 def test_glare_of_a_disk(run, tmp_path):
     """A disk of 5° half angle straight ahead: ω = 2π (1 − cos 5°), position index 1."""
     openexr = pytest.importorskip("OpenEXR")

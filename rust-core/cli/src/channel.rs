@@ -3,8 +3,9 @@
 use super::{file, radiance, wavelengths::derived};
 use gonio::{
     Error, Result,
+    colour::luminance_of_pixel,
     film::{Frame, Image, Layer, PictureView},
-    output::{Channels, read_exr, view_of_exr},
+    output::{Channels, has_other_primaries, read_exr, view_of_exr, white_luminance_of_exr},
     scene::{Aov, Crop},
 };
 use std::path::Path;
@@ -64,8 +65,15 @@ impl Picture {
         {
             channels.push((quantity.to_owned(), values));
         }
+        let is_part = |name: &str| name.split('.').any(|part| part.eq_ignore_ascii_case(quantity));
+        if quantity.eq_ignore_ascii_case("luminance")
+            && !channels.iter().any(|(name, _)| is_part(name))
+            && let Some(values) = luminances(path, &channels)?
+        {
+            channels.push((quantity.to_owned(), values));
+        }
         let by_name = channels.iter().position(|(name, _)| name == quantity);
-        let has_part = |index: &usize| channels[*index].0.split('.').any(|part| part.eq_ignore_ascii_case(quantity));
+        let has_part = |index: &usize| is_part(&channels[*index].0);
         let by_part: Vec<usize> = (0..channels.len()).filter(has_part).collect();
         let names = |of: &[usize]| of.iter().map(|index| channels[*index].0.as_str()).collect::<Vec<_>>().join(", ");
         let chosen = match (by_name, &by_part[..]) {
@@ -100,6 +108,18 @@ impl Picture {
             _ => "",
         }
     }
+}
+
+/// Luminances in cd/m² by the colour of a file that says what its white amounts to.
+fn luminances(path: &Path, channels: &Channels) -> Result<Option<Vec<f32>>> {
+    let (Some(white), Ok([red, green, blue])) = (white_luminance_of_exr(path)?, colour_of(path, channels, "luminance")) else {
+        return Ok(None);
+    };
+    if has_other_primaries(path)? {
+        return Ok(None);
+    }
+    let of_pixel = |((r, g), b): ((&f32, &f32), &f32)| white * luminance_of_pixel([*r, *g, *b]);
+    Ok(Some(red.iter().zip(green).zip(blue).map(of_pixel).collect()))
 }
 
 /// A file's channels, width and height, and view.

@@ -254,8 +254,12 @@ pub fn view_of_exr(path: &Path) -> Result<Option<PictureView>> {
 
 /// The exposure that a file's colour was multiplied by, as [`write_exr`] notes it; 1 where nothing is noted.
 pub fn exposure_of_exr(path: &Path) -> Result<f32> {
-    let white = attributes(path)?.white_luminance;
-    Ok(white.filter(|white| *white > 0.0 && white.is_finite()).map_or(1.0, f32::recip))
+    Ok(white_luminance_of_exr(path)?.map_or(1.0, f32::recip))
+}
+
+/// What white of 1 in a file's colour amounts to in cd/m², as [`write_exr`] notes it; none where nothing is noted.
+pub fn white_luminance_of_exr(path: &Path) -> Result<Option<f32>> {
+    Ok(attributes(path)?.white_luminance.filter(|white| *white > 0.0 && white.is_finite()))
 }
 
 /// Values of channels by name.

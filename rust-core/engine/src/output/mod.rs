@@ -12,7 +12,8 @@ pub use crate::scene::{Output, check_writable, is_ordinary, write_atomically, wr
 pub use compare::{ChannelDifference, Comparison, compare, difference_picture};
 pub use deep::write_deep_exr;
 pub use exr::{
-    Channels, ExrOptions, Further, exposure_of_exr, has_other_primaries, matte_notes, read_exr, view_of_exr, write_exr, write_exr_with,
+    Channels, ExrOptions, Further, exposure_of_exr, has_other_primaries, matte_notes, read_exr, view_of_exr, white_luminance_of_exr,
+    write_exr, write_exr_with,
 };
 pub use false_colour::{Canvas, FalseColour, FalseColourScale, MOST_STEPS};
 pub use picture::{encode_jpeg, encode_png, write_picture};
