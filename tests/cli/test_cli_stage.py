@@ -160,6 +160,42 @@ def test_a_mask_takes_in_what_its_prims_refer_to(run, tmp_path):
     assert [light["path"] for light in said["lights"]] == ["/Lights/Lamp"] and said["prims"]["Cube"] == 1
 
 
+def test_a_mask_takes_in_what_instances_refer_to(run, tmp_path):
+    thing = """def Xform "Thing" (
+    instanceable = true
+    prepend references = </Proto>
+)
+{
+}
+"""
+    proto = """def "Proto"
+{
+    def Cube "Body" (prepend apiSchemas = ["MaterialBindingAPI"])
+    {
+        rel material:binding = </Apart/Red>
+    }
+}
+"""
+    red = """def Scope "Apart"
+{
+    def Material "Red"
+    {
+        token outputs:surface.connect = </Apart/Red/S.outputs:surface>
+        def Shader "S"
+        {
+            uniform token info:id = "UsdPreviewSurface"
+            color3f inputs:diffuseColor = (0.8, 0, 0)
+            token outputs:surface
+        }
+    }
+}
+"""
+    stage = pictures.stage(tmp_path / "m.usda", thing, proto.replace('def "Proto"', 'over "Proto"'), red, pictures.camera())
+    whole = json.loads(run("info", stage, "--json").stdout)
+    said = json.loads(run("info", stage, "--json", "--mask", "/Thing").stdout)
+    assert said["materials"] == whole["materials"] == 1 and said["diagnostics"] == whole["diagnostics"] == []
+
+
 def test_a_mask_keeps_the_camera_and_the_settings_that_are_named(run, tmp_path):
     settings = 'def Scope "Render"\n{\n    def RenderSettings "S"\n    {\n        rel camera = </Cam>\n        uniform int2 resolution = (8, 4)\n    }\n}\n'
     stage = pictures.stage(tmp_path / "m.usda", MASKED, pictures.camera(), pictures.camera("Left", -2), settings)

@@ -10,6 +10,7 @@ use crate::{material, nesting, skeleton};
 use gonio::{Diagnostic, Error, Result};
 use pyo3::prelude::*;
 use pyo3::types::PyList;
+use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -139,6 +140,9 @@ fn population_mask<'py>(py: Python<'py>, options: &StageOptions) -> Result<Optio
     mask().map(Some).map_err(|error| failed(pxr::message_of(py, &error)))
 }
 
+/// How often a mask is widened by what instances name, which may hold instances in turn.
+const MOST_ROUNDS: usize = 16;
+
 /// Takes into a mask what its prims refer to, as usdrecord does: bound materials, prototypes, what lights are linked to; and what is looked
 /// through and followed.
 fn expand_mask(stage: &Bound<'_, PyAny>, options: &StageOptions) -> PyResult<()> {
@@ -152,7 +156,43 @@ fn expand_mask(stage: &Bound<'_, PyAny>, options: &StageOptions) -> PyResult<()>
         mask.call_method1("Add", (path,))?;
     }
     stage.call_method1("SetPopulationMask", (mask,))?;
-    stage.call_method0("ExpandPopulationMask").map(|_| ())
+    stage.call_method0("ExpandPopulationMask")?;
+    // What instances name is not asked for by the library: it sees none of their prims.
+    let mut tried = BTreeSet::new();
+    for _ in 0..MOST_ROUNDS {
+        let missing = named_by_instances(stage)?;
+        let new: Vec<&String> = missing.difference(&tried).collect();
+        if new.is_empty() {
+            break;
+        }
+        let mask = stage.call_method0("GetPopulationMask")?;
+        new.iter().try_for_each(|path| mask.call_method1("Add", (path,)).map(|_| ()))?;
+        stage.call_method1("SetPopulationMask", (mask,))?;
+        stage.call_method0("ExpandPopulationMask")?;
+        tried = missing;
+    }
+    Ok(())
+}
+
+/// Paths of prims outside of the mask that relationships within instances name.
+fn named_by_instances(stage: &Bound<'_, PyAny>) -> PyResult<BTreeSet<String>> {
+    let proxies = Module::Usd.item(stage.py(), "TraverseInstanceProxies")?.call0()?;
+    let mut missing = BTreeSet::new();
+    for prim in stage.call_method1("Traverse", (proxies,))?.try_iter()? {
+        let prim = prim?;
+        if !prim.call_method0("IsInstanceProxy")?.is_truthy()? {
+            continue;
+        }
+        for relationship in prim.call_method0("GetRelationships")?.try_iter()? {
+            for target in relationship?.call_method0("GetForwardedTargets")?.try_iter()? {
+                let path: String = target?.call_method0("GetPrimPath")?.str()?.extract()?;
+                if path.starts_with('/') && !Prim::new(stage.call_method1("GetPrimAtPath", (&path,))?).is_valid() {
+                    missing.insert(path);
+                }
+            }
+        }
+    }
+    Ok(missing)
 }
 
 /// Paths of a mask that name no prim.
