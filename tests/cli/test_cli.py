@@ -121,6 +121,24 @@ def test_a_mask_that_names_nothing_is_told(run, tmp_path):
     assert "the mask names a prim that is not there" in done.stdout + done.stderr and "/Typo" in done.stdout + done.stderr
 
 
+def test_relationships_that_lead_nowhere_are_told(run, tmp_path):
+    settings = (
+        'def Scope "Render"\n{\n    def RenderSettings "S"\n    {\n        rel camera = </Gone>\n        rel products = [</Render/P>, </Render/Lost>]\n    }\n'
+        '    def RenderProduct "P"\n    {\n        rel orderedVars = </Render/Vars/Missing>\n    }\n}\n'
+    )
+    lamp = 'def SphereLight "L" (prepend apiSchemas = ["CollectionAPI:lightLink"])\n{\n    rel collection:lightLink:includes = </Nobody>\n}\n'
+    stage = pictures.stage(tmp_path / "a.usda", settings, lamp, pictures.ROOM, pictures.camera())
+    stage.write_text(stage.read_text().replace("upAxis", 'renderSettingsPrimPath = "/Render/S"\n    upAxis', 1))
+    told = [fault["message"] for fault in json.loads(run("info", stage, "--json").stdout)["diagnostics"]]
+    for relationship, path in (
+        ("camera", "/Gone"),
+        ("products", "/Render/Lost"),
+        ("orderedVars", "/Render/Vars/Missing"),
+        ("collection:lightLink:includes", "/Nobody"),
+    ):
+        assert any(message.startswith(f"its {relationship} names <{path}>, which is not there") for message in told), (path, told)
+
+
 @pytest.mark.parametrize("kind", ["displacement", "volume", "mtlx:displacement"])
 def test_outputs_that_lead_nowhere_are_told(run, tmp_path, kind):
     surface = 'def Shader "S"\n{\n    uniform token info:id = "UsdPreviewSurface"\n    token outputs:surface\n}\n'

@@ -249,6 +249,17 @@ impl<'a, 'py> Context<'a, 'py> {
         prim.is_valid().then_some(prim)
     }
 
+    /// What a prim's relationship names; prims that are not there are told.
+    pub fn targets(&mut self, prim: &Prim<'py>, relationship: &str) -> Vec<String> {
+        let targets = prim.targets(relationship);
+        let missing: Vec<&String> = targets.iter().filter(|path| !path.contains('.') && self.prim_at(path).is_none()).collect();
+        for path in missing {
+            let message = || format!("its {relationship} names <{path}>, which is not there");
+            self.once("missing target", &format!("{relationship} {path}"), &prim.origin(), message);
+        }
+        targets
+    }
+
     /// `Some` of what a call into `pxr` gave, or a warning at `origin` that says what could not be done.
     pub fn attempt<T>(&mut self, origin: &Origin, what: &str, result: PyResult<T>) -> Option<T> {
         match result {

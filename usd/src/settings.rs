@@ -64,7 +64,7 @@ fn setting<'p, 'py>(settings: &'p Prim<'py>, product: Option<&'p Prim<'py>>, nam
 }
 
 fn read<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> RenderSettings {
-    let product_prims: Vec<Prim<'py>> = prim.targets("products").iter().filter_map(|path| context.prim_at(path)).collect();
+    let product_prims: Vec<Prim<'py>> = context.targets(prim, "products").iter().filter_map(|path| context.prim_at(path)).collect();
     RenderSettings {
         framing: framing(context, prim, product_prims.first()),
         purposes: purposes(context, prim),
@@ -90,7 +90,7 @@ fn framing<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, product: Optio
     Framing {
         resolution: resolution.map(|pixels| pixels.clamp(1.0, 65_536.0) as u32),
         pixel_aspect: pixel_aspect.unwrap_or(1.0),
-        camera: of("camera").targets("camera").into_iter().next(),
+        camera: context.targets(of("camera"), "camera").into_iter().next(),
         conform,
         data_window: context.get(of("dataWindowNDC"), "dataWindowNDC").unwrap_or(WHOLE_PICTURE),
         disable_depth_of_field: context.get(of("disableDepthOfField"), "disableDepthOfField").unwrap_or(false),
@@ -142,7 +142,7 @@ fn read_product<'py>(context: &mut Context<'_, 'py>, settings: &Prim<'py>, prim:
     }
     let stated: String = context.get(prim, "productName").unwrap_or_default();
     let mut variables: Vec<RenderVariable> = Vec::new();
-    for path in prim.targets("orderedVars") {
+    for path in context.targets(prim, "orderedVars") {
         let read = context.prim_at(&path).and_then(|var| render_variable::read(context, &var));
         variables.extend(read.filter(|read| variables.iter().all(|known| known.name != read.name)));
     }

@@ -73,6 +73,9 @@ impl<'py> LinkTable<'py> {
         let kinds = [("lightLink", "GetLightLinkCollectionAPI"), ("shadowLink", "GetShadowLinkCollectionAPI")];
         for (number, (name, getter)) in own.iter_mut().zip(kinds) {
             if is_link_authored(&prim, name) {
+                for rule in ["includes", "excludes"] {
+                    context.targets(&prim, &format!("collection:{name}:{rule}"));
+                }
                 let read = self.collection(&prim, getter);
                 *number = context.attempt_at(&prim, "the collection of its links cannot be read", read).flatten();
             }
