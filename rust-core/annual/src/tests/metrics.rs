@@ -188,7 +188,9 @@ fn blocks_give_standard_errors() {
 
 #[test]
 fn electric_light_gives_what_daylight_lacks() {
-    let lamps = ElectricLight { power_w_m2: 10.0, target_lx: 400.0, presence: 0.8, standby_kwh_m2: 1.5, ..ElectricLight::default() };
+    let sensor = Sensor::Least;
+    let lamps =
+        ElectricLight { power_w_m2: 10.0, target_lx: 400.0, sensor, presence: 0.8, standby_kwh_m2: 1.5, ..ElectricLight::default() };
     let electric = |lamps: ElectricLight| {
         found(&[group(&[level(0.03), level(0.01)])], &Settings { electric: Some(lamps), ..settings() }).electric.expect("lamps")
     };
@@ -197,7 +199,7 @@ fn electric_light_gives_what_daylight_lacks() {
     let dimmed = |daylight: f64| (1.0 - daylight / 400.0).clamp(0.1, 1.0);
     let hours = |load: &dyn Fn(f64) -> f64| lit.iter().map(|value| load(*value)).sum::<f64>() + 3650.0 - lit.len() as f64;
     let close = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 1e-5, "{a} {b}");
-    let least = electric(ElectricLight { sensor: Sensor::Least, ..lamps });
+    let least = electric(lamps);
     close(least.full_load_hours, hours(&|value| dimmed(0.01 * value)));
     close(least.leni_kwh_m2, 10.0 * 0.8 * least.full_load_hours * 1e-3 + 1.5);
     close(least.leni_without_daylight_kwh_m2, 10.0 * 0.8 * 3.65 + 1.5);
