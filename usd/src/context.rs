@@ -260,6 +260,21 @@ impl<'a, 'py> Context<'a, 'py> {
         targets
     }
 
+    /// The shader that an output of a material leads to, if any; outputs that lead nowhere are told.
+    pub fn connected(
+        &mut self,
+        material: &Prim<'py>,
+        output: &str,
+        found: PyResult<(Option<Prim<'py>>, Vec<String>)>,
+    ) -> Option<Prim<'py>> {
+        let origin = Origin::new(material.path());
+        let (shader, dangling) = self.attempt(&origin, &format!("the material's {output} cannot be found"), found)?;
+        for end in dangling.iter().filter(|_| shader.is_none()) {
+            self.warn(&origin, format!("its {output} is connected to {end}"));
+        }
+        shader
+    }
+
     /// `Some` of what a call into `pxr` gave, or a warning at `origin` that says what could not be done.
     pub fn attempt<T>(&mut self, origin: &Origin, what: &str, result: PyResult<T>) -> Option<T> {
         match result {

@@ -11,7 +11,7 @@ use gonio::scene::{Displacement, DisplacementKind, Graph};
 
 /// What displaces a material; its nodes are added to the graph.
 pub(super) fn read<'py>(context: &mut Context<'_, 'py>, material: &Prim<'py>, graph: &mut Graph) -> Option<Displacement> {
-    let prim = source(context, material, DISPLACEMENT)?;
+    let prim = context.connected(material, "displacement", source(material, DISPLACEMENT))?;
     let document = from_usd::read(prim, &context.time);
     let mut network = Network::new(context, document);
     network.graph = std::mem::take(graph);

@@ -1,10 +1,8 @@
 //! A material's outputs, and the render contexts that they are for.
 
 use super::from_usd;
-use crate::context::Context;
 use crate::prim::Prim;
 use crate::pxr::Module;
-use gonio::scene::Origin;
 use pyo3::{intern, prelude::*};
 
 /// Render contexts that go before others, the best first; the empty one is the universal.
@@ -42,18 +40,11 @@ pub(super) const DISPLACEMENT: Output =
     Output { name: "displacement", output: "GetDisplacementOutput", source: "ComputeDisplacementSource", in_others: false };
 pub(super) const VOLUME: Output = Output { name: "volume", output: "GetVolumeOutput", source: "ComputeVolumeSource", in_others: true };
 
-/// The shader behind an output, in the render context that goes first; what leads nowhere is told.
-pub(super) fn source<'py>(context: &mut Context<'_, 'py>, material: &Prim<'py>, of: Output) -> Option<Prim<'py>> {
-    let (origin, name) = (Origin::new(material.path()), of.name);
-    let (found, dangling) = context.attempt(&origin, &format!("the material's {name} cannot be found"), connected(material, of))?;
-    for end in dangling.iter().filter(|_| found.is_none()) {
-        context.warn(&origin, format!("its {name} is connected to {end}"));
-    }
-    found
-}
-
-/// The same, and where outputs lead that lead nowhere.
-fn connected<'py>(material: &Prim<'py>, Output { name, output, source, in_others }: Output) -> PyResult<(Option<Prim<'py>>, Vec<String>)> {
+/// The shader behind an output, in the render context that goes first, and where outputs lead that lead nowhere.
+pub(super) fn source<'py>(
+    material: &Prim<'py>,
+    Output { name, output, source, in_others }: Output,
+) -> PyResult<(Option<Prim<'py>>, Vec<String>)> {
     let mut dangling = Vec::new();
     // Most materials have none, which is told by names that are known.
     let known = RENDER_CONTEXTS.into_iter().filter(|context| material.has_authored(&output_name(context, name)));

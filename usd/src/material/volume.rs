@@ -85,7 +85,7 @@ pub(super) fn read<'py>(context: &mut Context<'_, 'py>, material: &Prim<'py>) ->
 /// What a material's volume is; `None` where it has none, or it is told to be left out.
 pub(crate) fn shading<'py>(context: &mut Context<'_, 'py>, material: &Prim<'py>) -> Option<VolumeShading> {
     let path = material.path();
-    let prim = source(context, material, VOLUME)?;
+    let prim = context.connected(material, "volume", source(material, VOLUME))?;
     let document = from_usd::read(prim, &context.time);
     let mut network = Network::new(context, document);
     let shader = network.shader(NodeIndex(0));
