@@ -4,7 +4,7 @@ use super::network::Network;
 use super::neutral::NodeIndex;
 use super::outputs::{output_name, render_contexts};
 use super::surface::straight;
-use super::{displaced, from_usd, metal, surface, volume};
+use super::{dangling, displaced, from_usd, metal, surface, volume};
 use crate::context::Context;
 use crate::prim::Prim;
 use crate::pxr::Module;
@@ -56,7 +56,7 @@ type Surfaces<'py> = (Vec<(String, Prim<'py>)>, Vec<String>);
 fn surfaces<'py>(prim: &Prim<'py>) -> PyResult<Surfaces<'py>> {
     let py = prim.py();
     let material = Module::UsdShade.wrap("Material", prim.object())?;
-    let (mut surfaces, mut dangling) = (Vec::new(), Vec::new());
+    let (mut surfaces, mut ends) = (Vec::new(), Vec::new());
     for render_context in render_contexts(prim) {
         if !prim.has_authored(&output_name(&render_context, "surface")) {
             continue;
@@ -74,13 +74,13 @@ fn surfaces<'py>(prim: &Prim<'py>) -> PyResult<Surfaces<'py>> {
             let attribute = output.call_method0(intern!(py, "GetAttr"))?;
             let undeclared = from_usd::undeclared_source(&attribute)?.map(|(prim, _)| prim);
             if undeclared.is_none() {
-                dangling.extend(from_usd::dangling(&attribute)?);
+                ends.extend(dangling::dangling(&attribute)?);
             }
             undeclared
         };
         surfaces.extend(shader.map(|shader| (render_context, shader)));
     }
-    Ok((surfaces, dangling))
+    Ok((surfaces, ends))
 }
 
 /// What surfaces without a material look like: Lambert's law with the prim's displayColor, and its displayOpacity where it has one.

@@ -1,12 +1,13 @@
 //! Shading networks of UsdShade as neutral documents: what a surface reads, followed through the interfaces of node graphs and materials.
 
+use super::dangling;
 use super::neutral::{Document, NodeIndex, Port, Said, Source, Value};
 use super::textures::{resolve_of_frame, resolve_text, resolve_tiles};
 use super::value::{is_colour, stated_colour_space};
 use crate::prim::{Attribute, Prim};
 use crate::pxr::{self, Module};
 use pyo3::{intern, prelude::*};
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 /// Most shaders of a network that are read.
 const MAX_SHADERS: usize = 60_000;
@@ -66,7 +67,7 @@ impl<'py> Reader<'_, 'py> {
             if let Some((prim, output)) = undeclared_source(attribute.object())? {
                 return Ok(self.output(prim, output));
             }
-            if let Some(end) = dangling(attribute.object())? {
+            if let Some(end) = dangling::dangling(attribute.object())? {
                 let message = format!("input '{name}' is connected to {end}; its own value or default is used");
                 self.document.problems.push((shader.path(), message));
             }
@@ -133,33 +134,6 @@ pub(in crate::material) fn undeclared_source<'py>(attribute: &Bound<'py, PyAny>)
         }
     }
     Ok(None)
-}
-
-/// Where a connection leads that ends at nothing or in a circle, and that it does, followed through the interfaces of graphs and materials.
-pub(in crate::material) fn dangling(attribute: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
-    let py = attribute.py();
-    let mut attribute = attribute.clone();
-    let mut passed = HashSet::new();
-    loop {
-        let here: String = attribute.call_method0(intern!(py, "GetPath"))?.str()?.extract()?;
-        if passed.contains(&here) {
-            return Ok(Some(format!("<{here}>, which leads back to itself")));
-        }
-        passed.insert(here);
-        let found = Module::UsdShade.item(py, "ConnectableAPI")?.call_method1(intern!(py, "GetConnectedSources"), (&attribute,))?;
-        if let Some(path) = found.get_item(1)?.try_iter()?.next() {
-            return Ok(Some(format!("<{}>, which is not there", path?.str()?)));
-        }
-        let Some(source) = found.get_item(0)?.try_iter()?.next().transpose()? else { return Ok(None) };
-        let name: String = source.getattr(intern!(py, "sourceName"))?.extract()?;
-        let graph = source.getattr(intern!(py, "source"))?;
-        let input = graph.call_method1(intern!(py, "GetInput"), (&name,))?;
-        let port = if input.is_truthy()? { input } else { graph.call_method1(intern!(py, "GetOutput"), (&name,))? };
-        attribute = port.call_method0(intern!(py, "GetAttr"))?;
-        if !attribute.is_truthy()? {
-            return Ok(None);
-        }
-    }
 }
 
 /// The unit that exporters of MaterialX leave at an attribute.

@@ -9,6 +9,7 @@ mod arnold_nodes;
 mod asked;
 mod binding;
 mod convert;
+mod dangling;
 mod definition;
 mod displaced;
 mod document;

@@ -1,6 +1,6 @@
 //! A material's outputs, and the render contexts that they are for.
 
-use super::from_usd;
+use super::dangling;
 use crate::prim::Prim;
 use crate::pxr::Module;
 use pyo3::{intern, prelude::*};
@@ -45,7 +45,7 @@ pub(super) fn source<'py>(
     material: &Prim<'py>,
     Output { name, output, source, in_others }: Output,
 ) -> PyResult<(Option<Prim<'py>>, Vec<String>)> {
-    let mut dangling = Vec::new();
+    let mut ends = Vec::new();
     // Most materials have none, which is told by names that are known.
     let known = RENDER_CONTEXTS.into_iter().filter(|context| material.has_authored(&output_name(context, name)));
     let mut stated: Vec<&str> = known.collect();
@@ -57,7 +57,7 @@ pub(super) fn source<'py>(
         stated.extend(others.filter(|context| !RENDER_CONTEXTS.contains(context)));
     }
     if stated.is_empty() {
-        return Ok((None, dangling));
+        return Ok((None, ends));
     }
     let py = material.py();
     let wrapped = Module::UsdShade.wrap("Material", material.object())?;
@@ -68,13 +68,13 @@ pub(super) fn source<'py>(
             continue;
         }
         if !output.call_method0(intern!(py, "HasConnectedSource"))?.is_truthy()? {
-            dangling.extend(from_usd::dangling(&output.call_method0(intern!(py, "GetAttr"))?)?);
+            ends.extend(dangling::dangling(&output.call_method0(intern!(py, "GetAttr"))?)?);
             continue;
         }
         let shader = wrapped.call_method1(source, (render_context,))?.get_item(0)?;
         if shader.is_truthy()? {
-            return Ok((Some(Prim::new(shader.call_method0(intern!(py, "GetPrim"))?)), dangling));
+            return Ok((Some(Prim::new(shader.call_method0(intern!(py, "GetPrim"))?)), ends));
         }
     }
-    Ok((None, dangling))
+    Ok((None, ends))
 }
