@@ -5,7 +5,7 @@ from math import cos, radians, sin, tan
 
 import gonio
 import numpy
-from shapes import put_box, quad
+from shapes import finished, put_box, quad
 
 # Index at 587.56 nm and Abbe number: more dispersion than dense flint, so that the colours lie far apart.
 INDEX, ABBE = 1.6, 15.0
@@ -50,18 +50,10 @@ def main() -> None:
     scene.add_light("dome", (9.0, 10.0, 12.0))
     # What shows the glass: a pale screen behind that its sides mirror.
     scene.add_light("rectangle", (110.0, 115.0, 130.0), width=1.2, height=0.35, transform=gonio.look_at((-0.1, 0.35, -1.0), (0, 0.1, 0)), visible=False)
-    passes = ["color", "denoising_albedo", "denoising_normal"]
-    scene.set(width=960, height=600, samples=128, spectral=True, caustics="on", passes=passes, film_transparent=False)
+    scene.set(width=960, height=600, samples=128, spectral=True, caustics="on")
     scene.add_camera(gonio.look_at((0.42, 0.5, 0.86), (0.25, 0.03, 0.03)), fov=37.0)
-    with gonio.Render(scene) as render:
-        render.wait()
-        film = render.film()
-    try:
-        film = gonio.denoise(film)
-    except gonio.UnsupportedError as error:
-        print(error)
     # An eye that is used to a dim room.
-    film.write_picture(sys.argv[1] if len(sys.argv) > 1 else "prism.png", adapted=80.0)
+    finished(scene, sys.argv[1] if len(sys.argv) > 1 else "prism.png", adapted=80.0, apart=False)
 
 
 if __name__ == "__main__":

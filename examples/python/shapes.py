@@ -85,8 +85,11 @@ def noise(rows: int, columns: int, cells: int, seed: int, octaves: int = 4) -> N
     return scaled
 
 
-def finished(scene: gonio.Scene, path: str, *, exposure: float = 0.0, white: float = 6.0, apart: bool = True) -> gonio.Film:
-    """Renders, takes the noise out where pyoidn is there, and writes the picture; `apart` keeps lamps that are seen out of that."""
+def finished(
+    scene: gonio.Scene, path: str, *, exposure: float = 0.0, white: float = 6.0, adapted: float | None = None, apart: bool = True
+) -> gonio.Film:
+    """Renders, takes the noise out where pyoidn is there, and writes the picture, by an exposure or as an eye sees it that is adapted to so many cd/m²;
+    `apart` keeps lamps that are seen out of the denoising."""
     passes = ["color", "illuminance", "luminance", "denoising_albedo", "denoising_normal", *(["denoising_light"] if apart else [])]
     # The sky that is seen covers what is behind, as in a photograph.
     scene.set(passes=passes, film_transparent=False)
@@ -97,5 +100,8 @@ def finished(scene: gonio.Scene, path: str, *, exposure: float = 0.0, white: flo
         film = gonio.denoise(film)
     except gonio.UnsupportedError as error:
         print(error)
-    film.write_picture(path, exposure=exposure, white=white)
+    if adapted is None:
+        film.write_picture(path, exposure=exposure, white=white)
+    else:
+        film.write_picture(path, adapted=adapted)
     return film
