@@ -106,7 +106,7 @@ fn rated(
     traced: EyesTraced,
     interrupted: &AtomicBool,
 ) -> Result<GlareYear> {
-    let settings = settings(&options.year, options.work.threads)?;
+    let settings = settings(&options.year, None, options.work.threads)?;
     let goes_on = || !interrupted.load(Ordering::Relaxed);
     GlareYear::new(year, schedule, (traced.views, traced.group), &settings, &goes_on).map_err(told)?.ok_or(Error::Cancelled)
 }

@@ -8,7 +8,7 @@ mod text;
 pub(super) mod trace;
 
 use super::{
-    arguments::{AnnualMetricsOptions, YearArguments},
+    arguments::{AnnualMetricsOptions, LightingArguments, YearArguments},
     file::{check_targets, print_path},
     messages::{print, say},
 };
@@ -20,8 +20,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Reads weather and coefficients, calculates every grid, and writes what was asked for.
 pub(super) fn annual_metrics(options: &AnnualMetricsOptions, interrupted: &AtomicBool) -> Result<i32> {
-    let mut settings = settings(&options.year, options.threads)?;
-    settings.electric = inputs::electric(&options.lighting);
+    let mut settings = settings(&options.year, Some(&options.lighting), options.threads)?;
     settings.sky.rotation_deg = -options.year.north;
     if let Some(folder) = &options.year.output {
         check_targets(inputs::grid_names(options).iter().flat_map(|name| series::paths(folder, name)).collect::<Vec<_>>().iter())?;
@@ -68,9 +67,10 @@ fn calculate(
     Ok((grid, series))
 }
 
-fn settings(options: &YearArguments, threads: u32) -> Result<Settings> {
+fn settings(options: &YearArguments, lighting: Option<&LightingArguments>, threads: u32) -> Result<Settings> {
     let threads = if threads == 0 { available_threads() } else { threads as usize };
-    Ok(Settings { sky: inputs::sky(options)?, memory: usize::try_from(options.memory).unwrap_or(usize::MAX), threads, electric: None })
+    let (memory, electric) = (usize::try_from(options.memory).unwrap_or(usize::MAX), lighting.and_then(inputs::electric));
+    Ok(Settings { sky: inputs::sky(options)?, memory, threads, electric })
 }
 
 fn as_json(named: &Named, grid: &Grid) -> Value {

@@ -82,8 +82,7 @@ fn load(py: Python<'_>, options: &AnnualOptions, more: &[String], interrupted: &
 
 /// Calculates every grid, tells and writes.
 fn finish(options: &AnnualOptions, inputs: &Inputs, grids: &[AnnualGrid], interrupted: &AtomicBool) -> Result<i32> {
-    let mut settings = settings(&options.year, options.work.threads)?;
-    settings.electric = inputs::electric(&options.lighting);
+    let settings = settings(&options.year, Some(&options.lighting), options.work.threads)?;
     let mut found = Vec::new();
     for (named, traced) in inputs.grids.iter().zip(grids) {
         let (grid, series) = calculate(&options.year, inputs, named, &settings, interrupted)?;

@@ -1,25 +1,17 @@
 //! `gonio emergency`.
 
-use super::{leave_burning, measure_at, not_counted, plan, readings};
-use crate::{
-    arguments::EmergencyOptions,
-    measure::{apply_settings, evaluated, watched},
-    messages::{print, tell},
-    progress::Reporter,
-    render::stage_options,
-    stage::Stage,
-};
+use super::{Found, leave_burning, loaded, measured, not_counted, plan, show};
+use crate::{arguments::EmergencyOptions, messages::tell};
 use gonio::{
     Result,
     compile::luminous_intensities,
-    measure::{IN_PART, straight_light},
+    measure::{IN_PART, StraightLight},
     scene::{Integrator, Scene},
 };
 use gonio_norms::{
     Reading, Spot,
     emergency::{Figures, Lamp, Plan, lines},
 };
-use gonio_usd::meter::axes;
 use pyo3::prelude::*;
 use std::{collections::BTreeMap, sync::atomic::AtomicBool};
 
@@ -31,37 +23,23 @@ const BEFORE: f64 = 1e-3;
 
 /// Measures what the plan asks for and tells what it comes to.
 pub(crate) fn emergency(py: Python<'_>, options: &EmergencyOptions, interrupted: &'static AtomicBool) -> Result<i32> {
-    let plan = plan(&options.plan, Plan::read)?;
-    let stage_options = stage_options(&options.stage)?;
-    let stage = Stage::open(py, &options.stage.stage, &options.stage.state, &stage_options)?;
-    let mut loaded = stage.load(py, &stage_options, interrupted)?;
-    let [up, _] = axes(loaded.info.up_axis);
-    let spots = plan.spots(up);
-    let scene = &mut loaded.scene;
-    let lamps = leave_burning(scene, &plan.groups, &plan.lights, "in an emergency")?;
-    measure_at(scene, &spots);
+    let (plan, options) = (plan(&options.plan, Plan::read)?, &options.norm);
+    let (mut stage, up) = loaded(py, options, interrupted)?;
+    let (scene, spots) = (&mut stage.scene, plan.spots(up));
+    let burning = leave_burning(scene, &plan.groups, &plan.lights, "in an emergency")?;
     // What surfaces send on does not count (EN 1838).
-    apply_settings(scene, (options.spp, None), Integrator::Direct, (&options.work, &options.textures));
-    tell(&options.stage, options.quiet, &loaded.diagnostics);
-    let (dark, lamps) = (scene.without_emission(), seen(scene, &lamps, &plan, up));
-    let found = py.detach(|| evaluated(&dark, None, Reporter::new(options.quiet), interrupted))?;
-    let (_, covered, _) =
-        py.detach(|| watched(Reporter::new(true), None, interrupted, |watch| straight_light(&dark, &before(&spots), watch)))?;
-    let not_counted = not_counted(&covered, "points", "counted");
+    let Found { readings, straight, told } = measured(py, scene, (&spots, &before(&spots)), (options, Integrator::Direct), interrupted)?;
+    let not_counted = not_counted(&straight, "points", "counted");
     // What measuring says of integrators is no way out here.
-    let told = found.diagnostics.iter().filter(|diagnostic| not_counted.is_none() || diagnostic.message != IN_PART);
+    let told = told.iter().filter(|diagnostic| not_counted.is_none() || diagnostic.message != IN_PART);
     tell(&options.stage, options.quiet, &told.chain(&not_counted).cloned().collect::<Vec<_>>());
-    let readings = readings(&found).into_iter().zip(&covered);
     // Nothing but what is not counted may be all there is: no figure, and no zero.
-    let readings: Vec<Reading> =
-        readings.map(|(reading, covered)| if *covered && reading.lx <= 0.0 { Reading::UNKNOWN } else { reading }).collect();
-    let notes = not_counted.iter().map(|note| note.message.clone()).collect();
-    let figures = Figures::new(&plan, &spots, &readings, lamps).with_notes(notes);
-    if options.json {
-        print(&figures.json().to_string());
-    } else {
-        lines(&figures).iter().for_each(|line| print(line));
-    }
+    let known =
+        |(reading, light): (Reading, &StraightLight)| if light.sees_covered && reading.lx <= 0.0 { Reading::UNKNOWN } else { reading };
+    let readings: Vec<Reading> = readings.into_iter().zip(&straight).map(known).collect();
+    let notes = not_counted.into_iter().map(|note| note.message).collect();
+    let figures = Figures::new(&plan, &spots, &readings, seen(scene, &burning, &plan, up)).with_notes(notes);
+    show(options, || figures.json(), || lines(&figures));
     Ok(0)
 }
 

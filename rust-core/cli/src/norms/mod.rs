@@ -5,15 +5,27 @@ mod sports;
 
 pub(super) use {emergency::emergency, sports::sports};
 
-use crate::file;
+use crate::{
+    arguments::NormArguments,
+    file,
+    measure::{apply_settings, evaluated},
+    messages::{print, tell},
+    progress::Reporter,
+    render::stage_options,
+    stage::Stage,
+};
 use gonio::{
     Diagnostic, Error, Result,
-    measure::Measurements,
-    scene::{Light, Meter, Origin, Scene},
+    compile::compile,
+    measure::{MeterReading, StraightLight, straight_light},
+    scene::{Integrator, Light, Meter, Origin, Scene},
 };
 use gonio_formats::FormatError;
 use gonio_norms::{Reading, Spot};
-use std::path::Path;
+use gonio_usd::{Loaded, meter::axes};
+use pyo3::prelude::*;
+use serde_json::Value;
+use std::{path::Path, sync::atomic::AtomicBool};
 
 /// The longest plan in bytes.
 const LONGEST_PLAN: u64 = 1 << 24;
@@ -24,8 +36,31 @@ fn plan<T>(name: &Path, read: impl Fn(&str) -> std::result::Result<T, FormatErro
     read(&String::from_utf8_lossy(&bytes)).map_err(|error| Error::in_file(name, &error))
 }
 
-/// Has illuminances measured at these points and nowhere else.
-fn measure_at(scene: &mut Scene, spots: &[Spot]) {
+/// The stage, and its way up.
+fn loaded(py: Python<'_>, options: &NormArguments, interrupted: &'static AtomicBool) -> Result<(Loaded, [f64; 3])> {
+    let stage_options = stage_options(&options.stage)?;
+    let stage = Stage::open(py, &options.stage.stage, &options.stage.state, &stage_options)?;
+    let loaded = stage.load(py, &stage_options, interrupted)?;
+    tell(&options.stage, options.quiet, &loaded.diagnostics);
+    let [up, _] = axes(loaded.info.up_axis);
+    Ok((loaded, up))
+}
+
+/// What was found at a plan's points, and what comes straight to some eyes.
+struct Found {
+    readings: Vec<Reading>,
+    straight: Vec<StraightLight>,
+    told: Vec<Diagnostic>,
+}
+
+/// Measures illuminances at these points and nowhere else, of the lights alone that burn.
+fn measured(
+    py: Python<'_>,
+    scene: &mut Scene,
+    (spots, eyes): (&[Spot], &[[f64; 3]]),
+    (options, integrator): (&NormArguments, Integrator),
+    interrupted: &'static AtomicBool,
+) -> Result<Found> {
     let meter = |spot: &Spot| {
         let [x, y, z] = spot.position;
         let origin = Origin::new(format!("{x:.3},{y:.3},{z:.3}"));
@@ -33,22 +68,35 @@ fn measure_at(scene: &mut Scene, spots: &[Spot]) {
     };
     scene.meters = spots.iter().map(meter).collect();
     scene.grids.clear();
+    apply_settings(scene, (options.spp, None), integrator, (&options.work, &options.textures));
+    let lit = scene.without_emission();
+    py.detach(|| {
+        let compiled = compile(&lit, None, interrupted)?;
+        let found = evaluated(&lit, Some(&compiled), Reporter::new(options.quiet), interrupted)?;
+        let reading = |found: &MeterReading| Reading { lx: found.reading.value, error: found.reading.standard_error };
+        let straight = straight_light(&lit, &compiled, eyes, interrupted)?;
+        Ok(Found { readings: found.meters.iter().map(reading).collect(), straight, told: found.diagnostics })
+    })
+}
+
+/// Prints figures, for machines or for people.
+fn show(options: &NormArguments, json: impl FnOnce() -> Value, lines: impl FnOnce() -> Vec<String>) {
+    if options.json {
+        print(&json().to_string());
+    } else {
+        lines().iter().for_each(|line| print(line));
+    }
 }
 
 /// Says at how many of these places luminaires are seen through glass or covers of the stage alone.
-fn not_counted(covered: &[bool], places: &str, what: &str) -> Option<Diagnostic> {
-    let count = covered.iter().filter(|covered| **covered).count();
+fn not_counted(straight: &[StraightLight], places: &str, what: &str) -> Option<Diagnostic> {
+    let count = straight.iter().filter(|light| light.sees_covered).count();
     let message = format!(
         "{count} of {} {places} see luminaires through glass or covers of the stage alone, whose light is not {what}; give luminaires with their covers by \
          IES or EULUMDAT files",
-        covered.len()
+        straight.len()
     );
     (count > 0).then(|| Diagnostic::warning(&Origin::new("luminaires"), message))
-}
-
-/// What was found there, in their order.
-fn readings(found: &Measurements) -> Vec<Reading> {
-    found.meters.iter().map(|found| Reading { lx: found.reading.value, error: found.reading.standard_error }).collect()
 }
 
 /// Leaves the lights of some groups, and those at or under some prims, burning, puts out all others and gives their numbers. Without both all that have a

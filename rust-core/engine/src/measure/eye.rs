@@ -97,8 +97,7 @@ impl Eye {
         }
         let area = solid_angle(&parts) * dot(way, way);
         parts.retain(|part| part.strength > 0.0 && part.weight != Err(NoIndex::Behind));
-        let is_covered = luminaire.casts_shadow && retain_seen(&mut parts, place, scene);
-        coverage.covered += usize::from(is_covered && parts.is_empty());
+        coverage.covered += usize::from(luminaire.casts_shadow && retain_seen(&mut parts, place, scene));
         let Some(brightest) = parts.iter().max_by(|a, b| a.light_left_out().total_cmp(&b.light_left_out())) else {
             return Share { tabular: Some(0.0), ..Share::default() };
         };
@@ -115,7 +114,7 @@ impl Eye {
         let place = subtract(self.position, scene.tables.origin).map(|x| x as f32);
         let mut parts: Vec<Part> = luminaire.emitters.iter().flat_map(|emitter| self.parts(emitter, place)).collect();
         parts.retain(|part| part.light > 0.0);
-        let is_covered = luminaire.casts_shadow && retain_seen(&mut parts, place, scene) && parts.is_empty();
+        let is_covered = luminaire.casts_shadow && retain_seen(&mut parts, place, scene);
         (parts.iter().map(|part| (part.direction.map(f64::from), part.light)).collect(), is_covered)
     }
 
@@ -177,15 +176,15 @@ fn drawn(emitter: &LightTable, place: [f32; 3], u: [f32; 2]) -> LightSample<One>
     emitter.sample_li(One, None, &eye, One.f(0.5), &u.map(|x| One.f(x)))
 }
 
-/// Drops the parts that something opaque hides; whether what hides any of them first lets light through in its own way, as glass and opal covers do.
+/// Drops the parts that something opaque hides; whether that is all of them, and what hides any first lets light through in its own way, as glass and
+/// opal covers do.
 fn retain_seen(parts: &mut Vec<Part>, place: [f32; 3], scene: &CompiledScene) -> bool {
     let ways: Vec<Way> = parts.iter().map(|part| Way { direction: part.direction, from: 0.0, to: part.distance * FREE }).collect();
     let mut blocked = vec![0; ways.len()];
     asked(&ways, place, |rays| scene.tables.bvh.any_hit_transparent(Execution::Scalar, rays, &mut blocked, &mut Vec::new()));
-    let hidden: Vec<Way> = ways.iter().zip(&blocked).filter(|(_, blocked)| **blocked != 0).map(|(way, _)| *way).collect();
     let mut blocked = blocked.into_iter();
     parts.retain(|_| blocked.next() == Some(0));
-    is_covered(hidden, place, scene)
+    parts.is_empty() && is_covered(ways, place, scene)
 }
 
 /// Whether the first thing on any of the ways that shadow rays do not pass lets light through.

@@ -22,6 +22,9 @@ impl Reading {
         Self { value: mean, standard_error: (squares / (count * (count - 1.0).max(1.0))).sqrt() }
     }
 
+    /// Where there is no figure.
+    pub(super) const UNKNOWN: Self = Self { value: f64::NAN, standard_error: f64::NAN };
+
     /// With another's that is independent of it.
     pub(super) fn plus(&self, other: &Self) -> Self {
         Self { value: self.value + other.value, standard_error: self.standard_error.hypot(other.standard_error) }
@@ -77,8 +80,7 @@ pub(super) struct Found {
 
 impl Found {
     pub(super) fn of_colour(measurand: Measurand, colour: Arc<ColourReading>) -> Self {
-        let undefined = Reading { value: f64::NAN, standard_error: f64::NAN };
-        Self { colour: Some(colour.clone()), ..colour.of(measurand).unwrap_or(undefined).into() }
+        Self { colour: Some(colour.clone()), ..colour.of(measurand).unwrap_or(Reading::UNKNOWN).into() }
     }
 }
 

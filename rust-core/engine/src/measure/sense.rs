@@ -231,7 +231,7 @@ fn with_light_paths(
     let readings = all.map(|((sensor, disc), (own, brought))| match (sensor.looks, disc.radius > 0.0) {
         (true, _) => *own,
         (false, true) => own.plus(&brought.times(f64::from(sensor.surroundings.squared_index))),
-        (false, false) => Reading { value: f64::NAN, standard_error: f64::NAN },
+        (false, false) => Reading::UNKNOWN,
     });
     Ok(readings.collect())
 }

@@ -1,36 +1,39 @@
 //! Light that comes straight from luminaires to eyes, for ratings of glare that do not ask how bright a source is, but how much light it sends (CIE 112).
 
-use super::{eye::Eye, watch::Watch};
+use super::eye::Eye;
 use crate::{
-    compile::{compile, luminaires},
-    error::{Diagnostic, Result},
+    compile::{CompiledScene, luminaires},
+    error::{Error, Result},
     scene::{Measurand, Meter, Origin, Scene},
+    threads::in_pool,
 };
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicBool, Ordering};
 
-/// To one eye: unit directions from it, and the illuminance that comes from each, lx across it.
-pub type StraightLight = Vec<([f64; 3], f64)>;
+/// What comes straight to an eye.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StraightLight {
+    /// Unit directions from it, and the illuminance that comes from each, lx across it.
+    pub sources: Vec<([f64; 3], f64)>,
+    /// Whether it sees any luminaire through glass or a cover alone, whose light is left out.
+    pub sees_covered: bool,
+}
 
-/// To eyes at some places, from all luminaires that nothing opaque hides; whether each sees any through glass or a cover alone, whose light is left out;
-/// and what differs from what was asked for.
+/// To eyes at some places, from all luminaires that nothing opaque hides; `compiled` is of this scene.
 ///
 /// # Errors
-/// Places that are not finite, what compiling finds, cancellation.
-pub fn straight_light(
-    scene: &Scene,
-    places: &[[f64; 3]],
-    watch: &mut Watch<'_>,
-) -> Result<(Vec<StraightLight>, Vec<bool>, Vec<Diagnostic>)> {
-    let compiled = compile(scene, watch.previous, watch.cancel)?;
-    let meters: Vec<Meter> = places.iter().map(|place| eye_at(*place)).collect();
+/// Places that are not finite, cancellation.
+pub fn straight_light(scene: &Scene, compiled: &CompiledScene, places: &[[f64; 3]], cancel: &AtomicBool) -> Result<Vec<StraightLight>> {
     let luminaires = luminaires(scene, compiled.tables.origin);
-    let (mut all, mut covered) = (Vec::new(), Vec::new());
-    for meter in &meters {
-        let eye = Eye::new(meter)?;
-        let (light, behind): (Vec<_>, Vec<bool>) = luminaires.iter().map(|luminaire| eye.straight(luminaire, &compiled)).unzip();
-        all.push(light.concat());
-        covered.push(behind.contains(&true));
-    }
-    Ok((all, covered, compiled.diagnostics))
+    let to = |place: &[f64; 3]| {
+        if cancel.load(Ordering::Relaxed) {
+            return Err(Error::Cancelled);
+        }
+        let eye = Eye::new(&eye_at(*place))?;
+        let (light, covered): (Vec<_>, Vec<bool>) = luminaires.iter().map(|luminaire| eye.straight(luminaire, compiled)).unzip();
+        Ok(StraightLight { sources: light.concat(), sees_covered: covered.contains(&true) })
+    };
+    in_pool(|| places.par_iter().map(to).collect())
 }
 
 /// Which way it looks does not matter.

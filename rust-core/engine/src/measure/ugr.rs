@@ -57,8 +57,7 @@ pub(super) fn ratings(
         let small = SmallSources { count, tabular: tabular.map(|sum| rating(sum, &background)) };
         let sum: f64 = shares.iter().map(|share| share.sum).sum();
         // What is seen through glass alone is not rated, and zero would be a good mark.
-        let is_unknown = sum <= 0.0 && coverage.covered > 0;
-        let found = if is_unknown { Reading { value: f64::NAN, standard_error: f64::NAN } } else { rating(sum, &background) };
+        let found = if sum <= 0.0 && coverage.covered > 0 { Reading::UNKNOWN } else { rating(sum, &background) };
         (found, coverage, small)
     });
     Ok(rated.collect())

@@ -1,4 +1,4 @@
-//! What `gonio emergency` takes.
+//! What `gonio emergency` and `gonio sports` take.
 
 use super::number::count;
 use super::stage::StageArguments;
@@ -29,13 +29,52 @@ A plan:
   position = [3, 0.05, 1.5]
   facing = [0, 1, 0]";
 
+/// The end of `gonio sports --help`.
+pub(super) const SPORTS_EXAMPLES: &str = "Examples:
+  gonio sports stadium.usda --plan pitch.toml
+  gonio sports stadium.usda --plan pitch.toml --json > pitch.json
+  gonio verdict required.toml pitch.json -o sheet.html
+
+A plan:
+  groups = [\"Floodlights\"]     # or lights = [\"/Stadium/Mast1\"]; all lights without both
+  maintenance_factor = 0.8
+  reflectance = 0.25            # of the ground, for the glare's background
+  [[field]]
+  name = \"Pitch\"
+  corner = [0, 0, 0]
+  along = [105, 0, 0]
+  across = [0, 68, 0]           # points by EN 12193, or points = [21, 13]
+  glare = true                  # GR at all its points, 1.5 m high
+  [[camera]]
+  name = \"Main\"
+  position = [52, -40, 15]      # or facing = [0, -1, 0]; height = 1.5
+  [[observer]]
+  name = \"Keeper\"
+  position = [0, 34, 1.5]";
+
 #[derive(Args, Debug)]
 pub(crate) struct EmergencyOptions {
-    #[command(flatten)]
-    pub(crate) stage: StageArguments,
     /// The plan: escape routes, open areas and places, in metres of the stage's world, and which lights shine; a TOML file.
     #[arg(long, value_name = "FILE.toml")]
     pub(crate) plan: PathBuf,
+    #[command(flatten)]
+    pub(crate) norm: NormArguments,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct SportsOptions {
+    /// The plan: fields, cameras and observers, in metres of the stage's world, and which lights shine; a TOML file.
+    #[arg(long, value_name = "FILE.toml")]
+    pub(crate) plan: PathBuf,
+    #[command(flatten)]
+    pub(crate) norm: NormArguments,
+}
+
+/// What both take beside their plans.
+#[derive(Args, Debug)]
+pub(crate) struct NormArguments {
+    #[command(flatten)]
+    pub(crate) stage: StageArguments,
     /// For machines, and for 'gonio verdict'.
     #[arg(long)]
     pub(crate) json: bool,
