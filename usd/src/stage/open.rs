@@ -7,7 +7,7 @@ use crate::options::StageOptions;
 use crate::prim::Prim;
 use crate::pxr::{self, Module};
 use crate::{material, nesting, skeleton};
-use gonio::{Diagnostic, Error, Result};
+use gonio::{Diagnostic, Error, Result, scene::Origin};
 use pyo3::prelude::*;
 use pyo3::types::PyList;
 use std::collections::BTreeSet;
@@ -47,7 +47,7 @@ pub(super) fn open_prepared<'py>(
         expand_mask(&stage, options).map_err(unreadable)?;
     }
     for path in masked_nothing(&stage, options).map_err(unreadable)? {
-        diagnostics.push(Diagnostic::warning(&gonio::scene::Origin::new(&path), "the mask names a prim that is not there"));
+        diagnostics.push(Diagnostic::warning(&Origin::new(&path), "the mask names a prim that is not there"));
     }
     let skeleton::Apart { apart, alike } = skeleton::take_instances_apart(&stage).map_err(unreadable)?;
     if let Some(first) = apart.first() {

@@ -124,8 +124,7 @@ impl Figures {
 impl OfField {
     /// Where glare is worst.
     pub(crate) fn worst(&self) -> Option<&([f64; 3], Rating)> {
-        let value = |rating: &Rating| rating.gr.unwrap_or(f64::NEG_INFINITY);
-        self.glare.iter().max_by(|a, b| value(&a.1).total_cmp(&value(&b.1)))
+        self.glare.iter().max_by(|a, b| a.1.order().total_cmp(&b.1.order()))
     }
 }
 

@@ -30,6 +30,13 @@ pub(crate) struct Rating {
     pub(crate) nearer: bool,
 }
 
+impl Rating {
+    /// By which ratings are compared: none is the best.
+    pub(crate) fn order(&self) -> f64 {
+        self.gr.unwrap_or(f64::NEG_INFINITY)
+    }
+}
+
 /// The worst of the directions in which an eye looks.
 pub(crate) fn worst(sources: &[Source], looks: &[(f64, [f64; 3])], reflectance: f64, ground: Reading) -> Rating {
     let none = Rating { gr: None, error: 0.0, look_deg: 0.0, nearer: false };
@@ -38,8 +45,7 @@ pub(crate) fn worst(sources: &[Source], looks: &[(f64, [f64; 3])], reflectance: 
         let (gr, error) = rating(veil, reflectance, ground);
         Rating { gr, error, look_deg: *look_deg, nearer }
     });
-    let value = |rating: &Rating| rating.gr.unwrap_or(f64::NEG_INFINITY);
-    rated.fold(none, |worst, next| if value(&next) > value(&worst) { next } else { worst })
+    rated.fold(none, |worst, next| if next.order() > worst.order() { next } else { worst })
 }
 
 /// Of the luminaires, and whether any is nearer than the formula holds.

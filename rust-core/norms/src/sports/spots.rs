@@ -45,10 +45,7 @@ impl Camera {
             (Some(place), _) => std::array::from_fn(|k| place[k] - point[k]),
             (None, facing) => facing.unwrap_or(up),
         };
-        let rise: f64 = (0..3).map(|k| way[k] * up[k]).sum();
-        let turned: [f64; 3] = if self.inclined { way } else { std::array::from_fn(|k| way[k] - rise * up[k]) };
-        let length = distance(turned, [0.0; 3]);
-        if length > 1e-9 { turned.map(|part| part / length) } else { up }
+        unit(if self.inclined { way } else { levelled(way, up) }).unwrap_or(up)
     }
 }
 
@@ -74,13 +71,7 @@ impl Plan {
 
     /// Directions in which eyes look, unit: all around from the first field's side, so many degrees above the horizon.
     pub(crate) fn looks(&self, up: [f64; 3]) -> Vec<(f64, [f64; 3])> {
-        let ahead = {
-            let along = self.fields[0].along;
-            let rise: f64 = (0..3).map(|k| along[k] * up[k]).sum();
-            let level: [f64; 3] = std::array::from_fn(|k| along[k] - rise * up[k]);
-            let length = distance(level, [0.0; 3]);
-            if length > 1e-9 { level.map(|part| part / length) } else { [up[1], up[2], up[0]] }
-        };
+        let ahead = unit(levelled(self.fields[0].along, up)).unwrap_or([up[1], up[2], up[0]]);
         let side = [up[1] * ahead[2] - up[2] * ahead[1], up[2] * ahead[0] - up[0] * ahead[2], up[0] * ahead[1] - up[1] * ahead[0]];
         let (rise, level) = self.tilt_deg.to_radians().sin_cos();
         let look = |number: usize| {
@@ -90,4 +81,16 @@ impl Plan {
         };
         (0..(360.0 / self.step_deg).ceil() as usize).map(look).collect()
     }
+}
+
+/// What of a way lies across the way up.
+fn levelled(way: [f64; 3], up: [f64; 3]) -> [f64; 3] {
+    let rise: f64 = (0..3).map(|k| way[k] * up[k]).sum();
+    std::array::from_fn(|k| way[k] - rise * up[k])
+}
+
+/// A way of length 1; none of one that has hardly any.
+fn unit(way: [f64; 3]) -> Option<[f64; 3]> {
+    let length = distance(way, [0.0; 3]);
+    (length > 1e-9).then(|| way.map(|part| part / length))
 }
