@@ -93,6 +93,31 @@ def test_lights_as_numbers_with_units(run, tmp_path):
     assert (sun["strength"], sun["unit"], sun["seen_by_camera"]) == (2, "cd/m²", True)
 
 
+SHINING = """
+def Material "{name}"
+{{
+    token outputs:surface.connect = </{name}/S.outputs:surface>
+    def Shader "S"
+    {{
+        uniform token info:id = "UsdPreviewSurface"
+        color3f inputs:emissiveColor = {colour}
+        token outputs:surface
+    }}
+}}
+def Sphere "Of{name}" (prepend apiSchemas = ["MaterialBindingAPI"])
+{{
+    rel material:binding = </{name}>
+}}
+"""
+
+
+def test_materials_that_shine_have_their_luminance(run, tmp_path):
+    body = SHINING.format(name="Panel", colour=(300, 300, 300)) + SHINING.format(name="Dark", colour=(0, 0, 0))
+    stage = pictures.stage(tmp_path / "a.usda", body + SHINING.format(name="Green", colour=(0, 10, 0)), pictures.camera())
+    told = {each["path"]: each["luminance_cd_m2"] for each in json.loads(run("info", stage, "--json").stdout)["emissive_materials"]}
+    assert told == {"/Panel": pytest.approx(300), "/Green": pytest.approx(7.152, rel=1e-3)}
+
+
 @pytest.mark.parametrize("metres", [1, 0.01, 0.001])
 def test_a_normalized_sun_is_told_in_lux_whatever_the_unit(run, tmp_path, metres):
     sun = 'def DistantLight "Sun"\n{\n    float inputs:angle = 0.53\n    float inputs:intensity = 50000\n    bool inputs:normalize = 1\n}\n'

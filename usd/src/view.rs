@@ -158,12 +158,11 @@ fn glows(material: &Material) -> bool {
     material.medium.emission.iter().any(|x| *x > 0.0)
 }
 
-/// Whether a material shines by itself.
+/// Whether a material shines by itself, or takes light away.
 pub fn shines(material: &Material) -> bool {
-    let glow = material.closures.iter().find_map(|closure| closure.input("emission_color"));
-    match glow {
-        Some(Input::Constant(value)) => value[..3].iter().any(|x| *x > 0.0),
-        Some(Input::Node(..)) => true,
-        None => false,
-    }
+    let sends = |glow| match glow {
+        Input::Constant(value) => value[..3].iter().any(|x| *x != 0.0),
+        Input::Node(..) => true,
+    };
+    material.closures.iter().filter_map(|closure| closure.input("emission_color")).any(sends)
 }

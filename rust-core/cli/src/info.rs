@@ -59,6 +59,7 @@ fn as_json(loaded: &gonio_usd::Loaded, compiled: &CompiledScene, diagnostics: &[
         "texture_bytes": s.texture_bytes,
         "bounds": if compiled.bounds.is_empty() { Value::Null } else { json!([compiled.bounds.min, compiled.bounds.max]) },
         "lights": light_numbers::lights(&loaded.scene),
+        "emissive_materials": light_numbers::emissive_materials(&loaded.scene),
         "diagnostics": diagnostics.iter().map(|d| json!({ "origin": &*d.origin.name, "message": d.message })).collect::<Vec<_>>(),
     })
 }

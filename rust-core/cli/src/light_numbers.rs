@@ -4,13 +4,33 @@ use super::light_words::{describe, extents, strength};
 use gonio::{
     colour::luminance_of_pixel,
     compile::luminous_fluxes,
-    scene::{Light, LightQuantity, LightShape, OpeningShape, Scene},
+    scene::{Input, Light, LightQuantity, LightShape, Material, OpeningShape, Scene},
 };
+use gonio_usd::view::shines;
 use serde_json::{Value, json};
 
 /// All lights of a scene; keys end in their units, and what a light has not is null.
 pub(super) fn lights(scene: &Scene) -> Vec<Value> {
     scene.lights.iter().zip(luminous_fluxes(scene)).map(|(light, flux)| numbers(light, flux)).collect()
+}
+
+/// Materials that shine by themselves, each with its luminance in cd/m², which is null where it varies.
+pub(super) fn emissive_materials(scene: &Scene) -> Vec<Value> {
+    let shining = scene.materials.iter().filter(|material| shines(material));
+    shining.map(|material| json!({ "path": &*material.origin.name, "luminance_cd_m2": luminance_sent(material) })).collect()
+}
+
+/// The sum of what the closures send, where it is the same everywhere.
+fn luminance_sent(material: &Material) -> Option<f32> {
+    let constant = |input| match input {
+        Input::Constant(value) => Some(value),
+        Input::Node(..) => None,
+    };
+    material.closures.iter().try_fold(0.0, |sum, closure| {
+        let Some(colour) = closure.input("emission_color") else { return Some(sum) };
+        let (colour, weight) = (constant(colour)?, constant(closure.weight)?);
+        Some(sum + luminance_of_pixel([0, 1, 2].map(|channel| colour[channel] * weight[channel])))
+    })
 }
 
 fn numbers(light: &Light, flux: Option<f64>) -> Value {

@@ -38,7 +38,7 @@ COMMANDS = {
     "part": (f"{PICTURE} --spp 192 --part 2/3 {KEPT}", "", "c.sums"),
     "merge": ("merge 1.sums 2.sums 3.sums -q -o a.exr -o a.png", "a.exr a.png", "1.sums 2.sums 3.sums"),
     "measure": ("measure stage.usda --grid /Floor --spacing 0.25 --spp 2048 --json --csv a.csv -o a.png -q", "a.csv a.png", ""),
-    "map": ("map stage.usda --prim /Floor --texel 0.03 --paths 1M --error 0% -q -o a.usda -o a.png -w 640", "a.usda a.png", ""),
+    "map": ("map stage.usda --prim /Floor --texel 0.03 --paths 16M --error 0% -q -o a.usda -o a.png -w 640", "a.usda a.png", ""),
     "goniometer": (
         "goniometer stage.usda --luminaire /Luminaire --rays 10M --error 0 --json -o a.ldt -o a.ies --csv a.csv --polar a.svg",
         "a.ldt a.ies a.csv a.svg",

@@ -102,13 +102,15 @@ pub(super) fn guides(guides: Guides<'_>) -> Rows {
     rows
 }
 
-/// The colours of light on its surfaces, with the alpha of those before.
+/// The colours of light on its surfaces, with the alpha of those before; what has neither light nor alpha keeps none.
 pub(super) fn colours(light: &Rows, before: &[f32], guides: Guides<'_>) -> Vec<f32> {
     let (stride, width) = (light.stride, guides.size[0]);
     let mut colours = before.to_vec();
     let sources = light.values.par_chunks_exact(light.length()).zip(guides.albedo.par_chunks_exact(3 * width));
     colours.par_chunks_exact_mut(4 * width).zip(sources).for_each(|(colours, (row, albedos))| {
-        for (x, (colour, albedo)) in colours.chunks_exact_mut(4).zip(albedos.chunks_exact(3)).enumerate() {
+        let there = |colour: &[f32]| colour.iter().any(|value| *value != 0.0);
+        let pixels = colours.chunks_exact_mut(4).zip(albedos.chunks_exact(3)).enumerate();
+        for (x, (colour, albedo)) in pixels.filter(|(_, (colour, _))| there(colour)) {
             for (channel, value) in colour[..3].iter_mut().enumerate() {
                 *value = row[channel * stride + MARGIN + x] * divisor(albedo, channel);
             }
