@@ -130,12 +130,9 @@ pub(super) fn compile(
         let group = groups.number(&light.group);
         for (light, share) in motion::lamps(light, &scene.settings, diagnostics) {
             let first = records.len();
-            for part in emitters(&light, origin, goniogram.and_then(|number| goniograms.tables.get(number as usize))) {
-                let plain = record(&light, &part, textures.light_numbers[number], diagnostics);
-                if let Some(instance) = shape_instance(&light, &part) {
-                    instance_light.push(records.len() as u32);
-                    instances.push(instance);
-                }
+            let parts = emitters(&light, origin, goniogram.and_then(|number| goniograms.tables.get(number as usize)));
+            for part in &parts {
+                let plain = record(&light, part, textures.light_numbers[number], diagnostics);
                 records.push(LightRecord { goniogram, ..plain });
             }
             groups.of_light.resize(records.len(), group);
@@ -143,6 +140,12 @@ pub(super) fn compile(
             quantity::apply(&light, &mut records[first..], &mut goniograms, &mut far_fields, diagnostics);
             if share < 1.0 {
                 records[first..].iter_mut().for_each(|record| record.radiance = record.radiance.map(|x| x * share));
+            }
+            // Rays pass lamps one after the other: those that send nothing are not worth meeting.
+            let shining = parts.iter().zip(first..).filter(|(_, number)| records[*number].radiance != [0.0; 3]);
+            for (instance, number) in shining.filter_map(|(part, number)| Some((shape_instance(&light, part)?, number))) {
+                instance_light.push(number as u32);
+                instances.push(instance);
             }
         }
         light_of.resize(records.len(), number as u32);

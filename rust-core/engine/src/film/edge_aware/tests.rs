@@ -89,7 +89,8 @@ fn light_does_not_cross_from_surface_to_surface() {
 fn no_light_goes_to_where_nothing_is() {
     let mut number = numbers();
     // Samples of guides are others than those of light: beside an edge they may see a surface where light saw none.
-    let mut noisy = picture(|x, _| if x < 30 { [[0.5 + number(); 3], [0.5; 3], UP] } else { [[0.0; 3], [0.5; 3], if x < 34 { UP } else { [0.0; 3] }] });
+    let mut noisy =
+        picture(|x, _| if x < 30 { [[0.5 + number(); 3], [0.5; 3], UP] } else { [[0.0; 3], [0.5; 3], if x < 34 { UP } else { [0.0; 3] }] });
     for (index, pixel) in noisy.layers[0].values.chunks_exact_mut(4).enumerate() {
         pixel[3] = if index % SIZE[0] < 30 { 1.0 } else { 0.0 };
     }
