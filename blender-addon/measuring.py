@@ -29,12 +29,14 @@ class Readings:
     years: dict = field(default_factory=dict)
     # Lines of figures as the N-panel shows them.
     point: tuple = ()
+    # Levels of light groups, and what they make of targets.
+    levels: tuple = ()
     luminaire: tuple = ()
     maps: tuple = ()
 
     def clear(self) -> None:
         """Forgets everything."""
-        self.grids, self.years, self.point, self.luminaire, self.maps = {}, {}, (), (), ()
+        vars(self).update(vars(Readings()))
 
 
 latest = Readings()

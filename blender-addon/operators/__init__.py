@@ -8,6 +8,7 @@ from ..baking import wanted
 from . import presets
 from .annual_daylight import GONIO_OT_annual_daylight
 from .bake_illuminance import GONIO_OT_bake_illuminance
+from .dim_lights import GONIO_OT_dim_lights
 from .expose_for_daylight import GONIO_OT_expose_for_daylight
 from .from_cycles import GONIO_OT_settings_from_cycles
 from .illumination_map import GONIO_OT_illumination_map
@@ -23,6 +24,7 @@ CLASSES = (
     GONIO_OT_use_standard_view,
     GONIO_OT_annual_daylight,
     GONIO_OT_bake_illuminance,
+    GONIO_OT_dim_lights,
     GONIO_OT_expose_for_daylight,
     GONIO_OT_illumination_map,
     GONIO_OT_measure_grids,

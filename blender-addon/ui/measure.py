@@ -29,6 +29,8 @@ class GONIO_VIEW3D_PT_measure(Panel):
         for name, lines in measuring.latest.years.items():
             layout.label(text=name, icon="OBJECT_DATA")
             _lines(layout, lines)
+        layout.operator("gonio.dim_lights", icon="LIGHT_DATA")
+        _lines(layout, measuring.latest.levels)
         layout.operator("gonio.measure_luminaire", icon="OUTLINER_OB_LIGHT")
         _lines(layout, measuring.latest.luminaire)
         layout.operator("gonio.illumination_map", icon="TEXTURE")

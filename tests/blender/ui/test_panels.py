@@ -168,7 +168,7 @@ def test_operators_say_what_the_scene_lacks():
             del kind.poll_message_set
 
     panels = {getattr(kind, "bl_label", "") for kind in bpy.types.Panel.__subclasses__()}
-    for name in ("measure_grids", "annual_daylight"):
+    for name in ("measure_grids", "annual_daylight", "dim_lights"):
         could, (words,) = said(name)
         assert not could and words.startswith("No object of the scene is a grid") and words.rsplit(", ", 1)[1] in panels, words
     for name, words in (
@@ -184,5 +184,11 @@ def test_operators_say_what_the_scene_lacks():
     bpy.context.object.gonio.is_grid = True
     scene.gonio.tone_map = "NONE"
     assert all(said(name) == (True, []) for name in ("measure_grids", "annual_daylight", "bake_illuminance", "expose_for_daylight", "illumination_map"))
+    could, (words,) = said("dim_lights")
+    assert not could and words.startswith("No light of the scene is in a light group") and words.rsplit(", ", 1)[1] in panels, words
+    lamp = bpy.data.objects.new("Lamp", bpy.data.lights.new("Lamp", "POINT"))
+    scene.collection.objects.link(lamp)
+    lamp.lightgroup = "Key"
+    assert said("dim_lights") == (True, [])
     bpy.ops.object.mode_set(mode="EDIT")
     assert said("illumination_map") == (False, ["Meshes take attributes in Object Mode alone"])
