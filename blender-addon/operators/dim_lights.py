@@ -87,7 +87,7 @@ class GONIO_OT_dim_lights(Beside, bpy.types.Operator):
     def _publish(self, context, meter, found):
         levels = {group["name"]: group["level"] for group in found["groups"]}
         for note in found["notes"]:
-            meter.report.add("Scene", context.scene.name, note)
+            meter.report.add("Scene", context.scene.name, note, severity="INFO" if "100 lm/W" in note else "WARNING")
         if self.is_applied:
             dimming.apply(context.scene, levels, meter.report)
         report.publish(meter.report)

@@ -6,7 +6,7 @@ use crate::{
     error::{Diagnostic, Error, Result},
     measure::{Measurements, Reading, Watch, measure},
     render::Progress,
-    scene::{Measurand, Scene},
+    scene::{Measurand, Origin, Scene},
 };
 use gonio_dimming::{Area, Estimate, Point, Problem, Reached};
 use gonio_simd::Execution;
@@ -23,14 +23,13 @@ pub(super) struct Run<'a, 'b> {
     count: usize,
     done: usize,
     started: Instant,
-    /// What is not as asked for, and what is to be known of what was measured.
+    /// What is not as asked for.
     pub(super) told: Vec<Diagnostic>,
-    pub(super) notes: Vec<String>,
 }
 
 impl<'a, 'b> Run<'a, 'b> {
-    pub(super) fn new(execution: Execution, watch: &'a mut Watch<'b>, count: usize) -> Self {
-        Self { execution, watch, count, done: 0, started: Instant::now(), told: Vec::new(), notes: Vec::new() }
+    pub(super) fn new(execution: Execution, watch: &'a mut Watch<'b>, count: usize, told: Vec<Diagnostic>) -> Self {
+        Self { execution, watch, count, done: 0, started: Instant::now(), told }
     }
 
     /// The readings of all points that the scene measures, meters first, each by name, and what is not as asked for.
@@ -101,7 +100,8 @@ fn area(run: &mut Run<'_, '_>, (name, fixed): (String, &[Reading]), number: usiz
     }
     if points.len() < fixed.len() {
         let (lost, count) = (fixed.len() - points.len(), fixed.len());
-        run.notes.push(format!("warning: {name}: {lost} of {count} points could not be measured and do not count"));
+        run.told
+            .push(Diagnostic::warning(&Origin::new(&*name), format!("{lost} of {count} points could not be measured and do not count")));
     }
     Ok(Area { name, points })
 }

@@ -3,8 +3,8 @@
 use super::DimTask;
 use crate::{
     compile::luminous_fluxes,
-    error::{Error, Result},
-    scene::{Light, OTHER_LIGHTS, Scene},
+    error::{Diagnostic, Error, Result},
+    scene::{Light, OTHER_LIGHTS, Origin, Scene},
 };
 use gonio_dimming::Group;
 
@@ -47,9 +47,9 @@ pub struct LightGroup {
 }
 
 impl LightGroup {
-    /// All that a scene names, in its order; what is to be known of them goes into the notes.
-    pub(super) fn all(task: &DimTask<'_>, scene: &Scene, notes: &mut Vec<String>) -> Result<Vec<Self>> {
-        let names = names(scene, notes)?;
+    /// All that a scene names, in its order; what cannot be dimmed is told, what is to be known of them goes into the notes.
+    pub(super) fn all(task: &DimTask<'_>, scene: &Scene, told: &mut Vec<Diagnostic>, notes: &mut Vec<String>) -> Result<Vec<Self>> {
+        let names = names(scene, told)?;
         let (watts, fixed) = (task.watts, task.fixed);
         check_numbers("watts", watts, &names)?;
         check_numbers("fixed", fixed, &names)?;
@@ -70,8 +70,7 @@ impl LightGroup {
             let (watts, source) =
                 of(watts, name).map_or_else(|| power(task, scene, (&lights, &fluxes)), |watts| (watts, PowerSource::Option));
             if source == PowerSource::Flux {
-                let shown = "no power is stated for it, or for some of it; its flux counts at 100 lm/W. --watts GROUP=W states it";
-                notes.push(format!("light group '{name}': {shown}"));
+                notes.push(format!("light group '{name}': no power is stated for it, or for some of it; its flux counts at 100 lm/W"));
             }
             let range = of(fixed, name).map_or([task.min_level, 1.0], |level| [level, level]);
             Self { group: Group { name: name.clone(), watts, range }, source, lights, prims }
@@ -81,13 +80,14 @@ impl LightGroup {
 }
 
 /// Names of the groups that hold lights; surfaces that shine have no dimmer, which is told.
-fn names(scene: &Scene, notes: &mut Vec<String>) -> Result<Vec<String>> {
+fn names(scene: &Scene, told: &mut Vec<Diagnostic>) -> Result<Vec<String>> {
     let mut names = scene.light_groups();
     names.retain(|name| name != OTHER_LIGHTS);
     names.retain(|name| {
         let is_shining = scene.instances.iter().any(|set| set.light_group == *name);
         if is_shining {
-            notes.push(format!("warning: light group '{name}' holds surfaces; what they send themselves is not dimmed"));
+            let origin = Origin::new(format!("light group '{name}'"));
+            told.push(Diagnostic::warning(&origin, "it holds surfaces; what they send themselves is not dimmed"));
         }
         scene.lights.iter().any(|light| light.group == *name && !light.portal)
     });

@@ -68,10 +68,10 @@ pub struct Dimming {
 /// # Errors
 /// A scene without light groups, targets that are none or name nothing that is measured, numbers out of range, what measuring finds, cancellation.
 pub fn dim(scene: &Scene, task: &DimTask<'_>, execution: Execution, watch: &mut Watch<'_>) -> Result<Dimming> {
-    let mut notes = Vec::new();
-    let groups = LightGroup::all(task, scene, &mut notes)?;
+    let (mut told_first, mut notes) = (Vec::new(), Vec::new());
+    let groups = LightGroup::all(task, scene, &mut told_first, &mut notes)?;
     let asked = Asked::new(task, scene, &groups)?;
-    let mut run = Run::new(execution, watch, 1 + groups.len() + usize::from(!asked.glare.is_empty()));
+    let mut run = Run::new(execution, watch, 1 + groups.len() + usize::from(!asked.glare.is_empty()), told_first);
     let areas = contributions::measured(&mut run, scene, &groups, &asked)?;
     let problem = Problem {
         groups: groups.iter().map(|group| group.group.clone()).collect(),
@@ -82,7 +82,6 @@ pub fn dim(scene: &Scene, task: &DimTask<'_>, execution: Execution, watch: &mut 
     };
     let mut solution = problem.solve().map_err(|error| told("target", error))?;
     solution.targets.extend(contributions::glare(&mut run, scene, (&groups, &solution.levels), &asked)?);
-    notes.append(&mut run.notes);
     Ok(Dimming { diagnostics: run.told, areas: problem.areas, groups, solution, notes })
 }
 
