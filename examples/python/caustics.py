@@ -42,17 +42,17 @@ def main() -> None:
     green = scene.add_material(transmission_weight=1.0, specular_roughness=0.0, specular_ior=1.52, transmission_color=(0.25, 0.78, 0.55), transmission_depth=0.02)
     red = scene.add_material(transmission_weight=1.0, specular_roughness=0.0, specular_ior=1.34, transmission_color=(0.75, 0.09, 0.08), transmission_depth=0.035)
     brass = scene.add_material(metalness=1.0, base_color=(0.93, 0.69, 0.32), specular_roughness=0.0)
-    scene.add_instance(tumbler(scene), [green], transform=at(-0.1, 0.0005, 0.03))
-    scene.add_instance(goblet(scene), [clear], transform=at(0.07, 0.0005, -0.04))
-    scene.add_instance(wine(scene), [red], transform=at(0.07, 0.0005, -0.04))
-    ring = lathe(scene, [(0.055, 0.0), (0.055, 0.03), (0.0535, 0.031), (0.052, 0.03), (0.052, 0.0)], 200)
-    scene.add_instance(ring, [brass], transform=at(0.02, 0.0005, 0.16))
+    scene.add_instance(tumbler(scene), [green], transform=at(0.03, 0.0005, 0.14))
+    scene.add_instance(goblet(scene), [clear], transform=at(0.1, 0.0005, -0.05))
+    scene.add_instance(wine(scene), [red], transform=at(0.1, 0.0005, -0.05))
+    ring = lathe(scene, [(0.065, 0.0), (0.065, 0.027), (0.0635, 0.028), (0.062, 0.027), (0.062, 0.0)], 200)
+    scene.add_instance(ring, [brass], transform=at(-0.13, 0.0005, -0.02))
     # One lamp, low and to the left, and a breath of dusk.
-    scene.add_light("sphere", lumens=420.0, temperature=4200.0, radius=0.006, transform=at(-0.4, 0.3, -0.3), visible=False)
+    scene.add_light("sphere", lumens=700.0, temperature=4200.0, radius=0.006, transform=at(-0.8, 0.38, -0.2), visible=False)
     scene.add_light("dome", (0.7, 0.95, 1.5), visible=False)
-    scene.set(width=960, height=600, samples=192, caustics="on", max_bounces=14)
-    scene.add_camera(gonio.look_at((0.12, 0.36, 0.72), (0.045, 0.058, 0.04)), fov=27)
-    finished(scene, sys.argv[1] if len(sys.argv) > 1 else "caustics.png", exposure=0.3)
+    scene.set(width=960, height=600, samples=48, caustics="on", max_bounces=14)
+    scene.add_camera(gonio.look_at((0.1, 0.54, 0.62), (0.06, 0.055, 0.03)), fov=28)
+    finished(scene, sys.argv[1] if len(sys.argv) > 1 else "caustics.png", exposure=0.45)
 
 
 if __name__ == "__main__":
