@@ -20,7 +20,7 @@ def add_quad(scene: gonio.Scene, corners: list[tuple[float, float, float]], refl
 def office() -> gonio.Scene:
     """A room with reflectances of 0.7, 0.5 and 0.2, a desk, two panels of 3000 cd/m², and a camera under the ceiling."""
     scene = gonio.Scene()
-    scene.set(width=640, height=640, samples=64, passes=["color", "illuminance", "P"])
+    scene.set(width=640, height=640, samples=64, passes=["color", "illuminance", "P", "denoising_albedo", "denoising_normal"])
     w, d, h = WIDTH / 2, DEPTH / 2, HEIGHT
     add_quad(scene, [(-w, 0, d), (w, 0, d), (w, 0, -d), (-w, 0, -d)], 0.2)
     add_quad(scene, [(-w, h, -d), (w, h, -d), (w, h, d), (-w, h, d)], 0.7)
@@ -38,13 +38,15 @@ def office() -> gonio.Scene:
     return scene
 
 
-def smooth(lux: NDArray[numpy.float32], radius: int = 4) -> NDArray[numpy.float32]:
-    """Means over squares of 2 · radius + 1 pixels: the steps of false colour are to follow the light, not its noise."""
-    wide = numpy.pad(lux, radius, mode="edge")
-    side = 2 * radius + 1
-    windows = numpy.lib.stride_tricks.sliding_window_view(wide, (side, side))
-    means: NDArray[numpy.float32] = windows.mean(axis=(2, 3)).astype("f4")
-    return means
+def clean(film: gonio.Film) -> NDArray[numpy.float32]:
+    """The illuminance without its noise, where pyoidn is there: the steps of false colour are to follow the light."""
+    # The denoiser takes colours.
+    shown = film.with_pass("color", numpy.repeat(numpy.asarray(film["illuminance"]), 4, axis=2))
+    try:
+        shown = gonio.denoise(shown)
+    except gonio.UnsupportedError as error:
+        print(error)
+    return numpy.ascontiguousarray(numpy.asarray(shown["color"])[..., 0])
 
 
 def main() -> None:
@@ -59,7 +61,7 @@ def main() -> None:
     desk = numpy.abs(points[..., 1] - DESK_HEIGHT) < 1e-3
     blocks = numpy.where(desk, lux, numpy.nan).reshape(40, 16, 40, 16).mean(axis=(1, 3))
     print(f"E_avg {numpy.nanmean(blocks):.0f} lx, E_min {numpy.nanmin(blocks):.0f} lx, E_max {numpy.nanmax(blocks):.0f} lx")
-    shown = gonio.false_colour(smooth(lux), unit="lx", max=500, contours=True)
+    shown = gonio.false_colour(clean(film), unit="lx", max=500, contours=True)
     shown.write(sys.argv[1] if len(sys.argv) > 1 else "lux_on_a_desk.png")
 
 
