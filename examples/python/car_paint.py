@@ -68,17 +68,18 @@ def main() -> None:
         c, s = numpy.cos(numpy.radians(degrees)), numpy.sin(numpy.radians(degrees))
         scene.add_instance(body, [material], transform=[[-c, 0, s, x], [0, 1, 0, 0.004], [s, 0, c, z], [0, 0, 0, 1]])
     floor = scene.add_material(base_color=(0.05, 0.05, 0.055), specular_roughness=0.22)
-    quad(scene, [(-3, 0, 2.5), (3, 0, 2.5), (3, 0, -3), (-3, 0, -3)], floor)
+    quad(scene, [(-8, 0, 2.5), (8, 0, 2.5), (8, 0, -8), (-8, 0, -8)], floor)
     wall = scene.add_material(base_color=(0.06, 0.065, 0.075), specular_weight=0.0)
-    quad(scene, [(-9, 0, -2.2), (9, 0, -2.2), (9, 3, -2.2), (-9, 3, -2.2)], wall)
+    # Across the camera's way, so that its foot lies level in the picture.
+    quad(scene, [(-6.8, 0, -6.5), (9.2, 0, 1.65), (9.2, 5, 1.65), (-6.8, 5, -6.5)], wall)
     # Tubes overhead, whose reflections draw the form, and a large soft light in front.
     for z in (-0.9, -0.35, 0.2, 0.75):
         scene.add_light("rectangle", (5200.0, 5200.0, 5200.0), width=2.2, height=0.07, transform=gonio.look_at((0, 1.15, z), (0, 0, z)), visible=False)
     scene.add_light("rectangle", (420.0, 430.0, 450.0), width=1.8, height=0.9, transform=gonio.look_at((-0.6, 0.7, 1.9), (0, 0.05, 0)), visible=False)
     scene.add_light("rectangle", (260.0, 300.0, 380.0), width=3.0, height=0.25, transform=gonio.look_at((0, 0.4, -1.4), (0, 0.4, -2.2)), visible=False)
-    scene.set(width=960, height=600, samples=160)
+    scene.set(width=960, height=600, samples=64)
     scene.add_camera(gonio.look_at((-0.46, 0.33, 0.95), (0.045, 0.04, -0.04)), fov=25)
-    finished(scene, sys.argv[1] if len(sys.argv) > 1 else "car_paint.png", exposure=0.2)
+    finished(scene, sys.argv[1] if len(sys.argv) > 1 else "car_paint.png", exposure=-0.5)
 
 
 if __name__ == "__main__":
