@@ -98,7 +98,7 @@ PICTURES = (
         "The office in the sun",
         "The same stage in Vienna, on a late afternoon in March.",
         OFFICE,
-        (f"gonio render {OFFICE} -o out/gallery/office_sun.png {LARGE} --sun 48.21,16.37,2025-03-21T16:30+01:00",),
+        (f"gonio render {OFFICE} -o out/gallery/office_sun.png {LARGE} --exposure 0.5 --sun 48.21,16.37,2025-03-21T16:30+01:00",),
     ),
     script("cornell_box", "The Cornell box", "Built from numpy arrays."),
     script("lux_on_a_desk", "Lux on a desk", "From above, in steps of lux. The script prints the desk's mean, lowest and highest illuminance."),
@@ -119,7 +119,7 @@ PICTURES = (
             " --polar out/gallery/downlight.svg",
         ),
     ),
-    script("measured_lobes", "Lobes of a measured metal", "The metal, its copy in a file, and where samples fall.", "brushed.gbsdf"),
+    script("measured_lobes", "Lobes of a measured metal", "In columns light from 0°, 40° and 70°; in rows the metal, its copy in a file, and how densely samples fall.", "brushed.gbsdf"),
 )
 
 

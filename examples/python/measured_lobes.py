@@ -1,6 +1,6 @@
 """A measured material from a table: written, read, evaluated, sampled, fitted: `python measured_lobes.py measured_lobes.png brushed.gbsdf`.
 
-The picture shows hemispheres of light for three views: the BSDF as brightness (logarithmic), and the samples that it is rendered with.
+The picture shows hemispheres of light for light from 0°, 40° and 70°: the metal above, its copy below, and below that how densely samples fall.
 """
 
 import sys
@@ -11,7 +11,9 @@ import numpy
 from numpy.typing import ArrayLike, NDArray
 
 Floats = NDArray[numpy.float64]
-SIZE = 220
+# Pixels across a hemisphere's square, and half of that square's side; the hemisphere's radius is 1.
+SIZE, EDGE = 260, 1.06
+SAMPLES = 2_000_000
 VIEWS = (0.0, 40.0, 70.0)
 DECADES = 3.0
 
@@ -50,25 +52,35 @@ def measured(path: Path) -> gonio.MeasuredBsdf:
 
 def disk() -> tuple[Floats, NDArray[numpy.bool_]]:
     """Directions of the pixels of a hemisphere seen from above, and which pixels are in it."""
-    x, y = numpy.meshgrid(*[(numpy.arange(SIZE) + 0.5) / SIZE * 2.2 - 1.1] * 2)
+    x, y = numpy.meshgrid(*[(numpy.arange(SIZE) + 0.5) / SIZE * 2.0 * EDGE - EDGE] * 2)
     radius = numpy.hypot(x, y)
     inside = radius < 0.99
     z = numpy.sqrt(1.0 - numpy.where(inside, radius, 0.0) ** 2)
     return numpy.stack([numpy.where(inside, x, 0.0), numpy.where(inside, -y, 0.0), z], axis=-1), inside
 
 
-def panel(bsdf: gonio.MeasuredBsdf, view: float) -> Floats:
-    """One hemisphere of light: the BSDF on the left, samples on the right, 0 to 1."""
+def density(bsdf: gonio.MeasuredBsdf, view: float, cosines: Floats) -> Floats:
+    """How densely samples fall, 1/sr, counted in pixels."""
+    # Points that fill the cube evenly: multiples of the powers of a root of x⁴ = x + 1, without their whole parts.
+    even = numpy.arange(SAMPLES)[:, None] * 1.2207440846057596 ** -numpy.arange(1.0, 4.0) % 1.0
+    jitter = numpy.random.default_rng(1).random((SAMPLES, 3)) / SAMPLES ** (1 / 3)
+    wi, found = bsdf.sample(direction(view, 180.0)[None], (even + jitter) % 1.0)
+    kept: Floats = numpy.asarray(wi)[numpy.asarray(found) > 0.0]
+    edges = numpy.linspace(-EDGE, EDGE, SIZE + 1)
+    counts = numpy.histogram2d(-kept[:, 1], kept[:, 0], bins=(edges, edges))[0]
+    # A pixel covers so much of the sphere, by how it is turned away.
+    densities: Floats = counts / SAMPLES / (2.0 * EDGE / SIZE) ** 2 * cosines
+    return densities
+
+
+def panels(bsdf: gonio.MeasuredBsdf, view: float) -> Floats:
+    """Three hemispheres of light from one direction, one above the other: the metal, its copy in the file (both times the cosine), and the samples; 1/sr."""
     wi, inside = disk()
     wo = direction(view, 180.0)[None]
-    values = numpy.asarray(bsdf.eval(wi.reshape(-1, 3), wo)).reshape(SIZE, SIZE) / wi[..., 2]
-    bright = numpy.clip(1.0 + (numpy.log10(numpy.maximum(values, 1e-9)) - 1.0) / DECADES, 0.0, 1.0)
-    drawn, density = bsdf.sample(wo, numpy.random.default_rng(1).random((6000, 3)))
-    samples: Floats = numpy.asarray(drawn)[numpy.asarray(density) > 0.0]
-    spots = numpy.zeros((SIZE, SIZE))
-    column, row = (((samples[:, 0] + 1.1) / 2.2 * SIZE).astype(int), ((1.1 - samples[:, 1]) / 2.2 * SIZE).astype(int))
-    numpy.add.at(spots, (row, column), 0.35)
-    return numpy.concatenate([numpy.where(inside, bright, 1.0), numpy.where(inside, numpy.minimum(spots, 1.0), 1.0)], axis=1)
+    metal = brushed(wi, wo[None]) * wi[..., 2]
+    copy = numpy.asarray(bsdf.eval(wi.reshape(-1, 3), wo)).reshape(SIZE, SIZE)
+    shown = (metal, copy, density(bsdf, view, wi[..., 2]))
+    return numpy.concatenate([numpy.where(inside, values, numpy.nan) for values in shown], axis=0)
 
 
 def main() -> None:
@@ -79,26 +91,11 @@ def main() -> None:
     for view in VIEWS:
         # Sampled as a renderer would: the mean of value over density is the albedo.
         wi, found = bsdf.sample(direction(view, 180.0)[None], rng.random((20_000, 3)))
-        values, density = numpy.asarray(bsdf.eval(wi, direction(view, 180.0)[None])), numpy.asarray(found)
-        print(f"albedo at {view:.0f}°: {(values[:, 0] / density).mean():.3f}")
+        values, densities = numpy.asarray(bsdf.eval(wi, direction(view, 180.0)[None])), numpy.asarray(found)
+        print(f"albedo at {view:.0f}°: {(values[:, 0] / densities).mean():.3f}")
     print("nearest OpenPBR surface:", {name: numpy.round(value, 3).tolist() for name, value in bsdf.fit().items()})
-    picture = numpy.concatenate([panel(bsdf, view) for view in VIEWS], axis=0)
-    write_png(Path(picture_path), picture)
-
-
-def write_png(path: Path, grey: Floats) -> None:
-    """An 8-bit grey PNG."""
-    import struct
-    import zlib
-
-    def chunk(name: bytes, data: bytes) -> bytes:
-        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
-
-    rows = numpy.round(grey * 255.0).astype("u1")
-    height, width = rows.shape
-    lines = b"".join(b"\0" + row.tobytes() for row in rows)
-    header = struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)
-    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(lines, 9)) + chunk(b"IEND", b""))
+    picture = numpy.concatenate([panels(bsdf, view) for view in VIEWS], axis=1)
+    gonio.false_colour(picture.astype("f4"), max=3.0, steps=15, log=DECADES, unit="1/sr").write(picture_path)
 
 
 if __name__ == "__main__":
