@@ -3,6 +3,7 @@
 import gonio
 import numpy as np
 import pytest
+from gonio.medium import haze
 from png_reader import png
 from small_scenes import QUAD, above, finished
 
@@ -128,3 +129,18 @@ def test_a_denoiser_lets_no_light_out_to_nothing(tmp_path):
     pixels, plain = (shown(each, tmp_path / f"{name}.png") for name, each in (("clean", clean), ("plain", film)))
     assert (pixels[coverage == 0] == 0).all() and np.abs(pixels[..., 3] - plain[..., 3]).max() <= 1
     assert np.abs(pixels[coverage == 1] - plain[coverage == 1]).mean() < 3
+
+
+def test_a_denoiser_leaves_haze_whose_samples_were_dark():
+    pytest.importorskip("pyoidn")
+    scene = gonio.Scene()
+    scene.set(width=32, height=32, samples=4, max_bounces=4, passes=["color", "denoising_albedo", "denoising_normal"])
+    wall = scene.add_mesh(np.array([[-9, 0, 9], [9, 0, 9], [9, 0, -9], [-9, 0, -9]], "f4"), QUAD)
+    scene.add_instance(wall, [scene.add_material(base_color=(0.05,) * 3, specular_weight=0.0)])
+    down = gonio.look_at((0, 3, 0), (0, 0, 0), (0, 0, 1))
+    scene.add_light("sphere", (1.0, 1.0, 1.0), radius=0.02, candela=900.0, spot=(10.0, 0.1), transform=down)
+    scene.put_atmosphere(haze(8.0))
+    scene.add_camera(above(8), fov=60)
+    film = finished(scene)
+    plain, clean = (np.asarray(each["color"])[..., :3].max(axis=-1) for each in (film, gonio.denoise(film)))
+    assert (plain == 0).sum() > 20 and (clean > 0).all()

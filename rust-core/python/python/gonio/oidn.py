@@ -63,10 +63,24 @@ def _denoised(
     # Without what mirrors and glass show of lights, the colour has no edges that the guides do not have.
     rest = color if light is None else numpy.maximum(color - light, 0.0)
     denoised = pyoidn.denoise(numpy.ascontiguousarray(rest, numpy.float32), hdr=True, clean_aux=bool(guides), **guides)
-    if normal is not None:
-        # Beside edges the filter lets light out to where nothing is: normals, whose samples are others, are short or none there.
-        denoised[~rest.any(axis=-1) & (numpy.square(normal).sum(axis=-1) < 0.25)] = 0.0
+    if albedo is not None and normal is not None:
+        denoised[~rest.any(axis=-1) & _beside_nothing(albedo, normal)] = 0.0
     return denoised if light is None else denoised + light
+
+
+def _beside_nothing(albedo: numpy.ndarray, normal: numpy.ndarray, reach: int = 2) -> numpy.ndarray:
+    """Where the filter lets light out beside edges to where nothing is: normals, whose samples are others than the colour's, are short or none there,
+    and a few pixels further on there is nothing at all. In haze before a wall there is something everywhere, though a pixel's samples may all be dark.
+    """
+    import numpy
+
+    nothing = ~(albedo.any(axis=-1) | normal.any(axis=-1))
+    near = nothing.copy()
+    for axis in (0, 1):
+        padded = numpy.pad(near, [(reach, reach) if each == axis else (0, 0) for each in (0, 1)])
+        near = numpy.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1, axis=axis).any(axis=-1)
+    short: numpy.ndarray = numpy.square(normal).sum(axis=-1) < 0.25
+    return near & short
 
 
 def _prefiltered(pyoidn: Any, name: str, image: numpy.ndarray) -> numpy.ndarray:
