@@ -115,7 +115,7 @@ PICTURES = (
         "The virtual goniophotometer's polar diagram of an LED in a reflector.",
         "examples/usd/downlight.usda",
         (
-            "gonio goniometer examples/usd/downlight.usda --luminaire /World/Downlight --error 1% -o out/gallery/measured_downlight.ldt"
+            "gonio goniometer examples/usd/downlight.usda --luminaire /World/Downlight --g-step 2.5 --error 1% -o out/gallery/measured_downlight.ldt"
             " --polar out/gallery/downlight.svg",
         ),
     ),
