@@ -158,7 +158,7 @@ def page() -> str:
     lines = [
         "# Gallery",
         "",
-        "Each picture with the file that made it. `make docs` renders them in about ten minutes on two cores; what is there already stays.",
+        "Each picture with the file that made it. `make docs` renders them in about twenty minutes on two cores; what is there already stays.",
         "",
     ]
     lines += ["More about each stands in the [README of the examples](examples/README.md).", "", '<div class="gallery" markdown>', ""]

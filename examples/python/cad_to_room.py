@@ -80,7 +80,7 @@ def main() -> None:
         scene.add_light("luminaire", goniogram=goniogram, transform=[[1, 0, 0, x], [0, 0, 1, HEIGHT - 0.012], [0, -1, 0, z], [0, 0, 0, 1]], visible=False)
         for mesh, material in ((disc, glow), (ring, rim)):
             scene.add_instance(mesh, [material], transform=at(x, HEIGHT - 0.009, z))
-    scene.set(width=960, height=600, samples=64)
+    scene.set(width=960, height=600, samples=32)
     scene.add_camera(gonio.look_at((-1.5, 1.55, 6.6), (0.1, 1.42, 0.0)), fov=40)
     finished(scene, picture, exposure=0.9)
 

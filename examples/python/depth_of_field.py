@@ -62,7 +62,7 @@ def main() -> None:
     for x in (-1.9, 0.75):
         put_box(scene, (x, 0.25, -4.9), (x + 0.8, 1.6, -4.85), pane)
     scene.add_light("rectangle", lumens=28.0, temperature=4200.0, width=0.3, height=0.3, transform=gonio.look_at((-0.5, 0.5, 0.35), (0, 0, 0)), visible=False)
-    scene.set(width=960, height=600, samples=64, max_bounces=14, clamp_indirect=60.0)
+    scene.set(width=960, height=600, samples=40, max_bounces=14, clamp_indirect=60.0)
     camera = gonio.look_at((0.03, 0.125, 0.47), (0.012, 0.05, -0.05))
     scene.add_camera(camera, fov=25)
     described = scene.to_dict()["cameras"][0]

@@ -77,7 +77,7 @@ def main() -> None:
         scene.add_instance(points=hub, materials=[wood], transform=turns[0])
         stick = numpy.array([(place[0], 0, place[2] - 0.02), (place[0], place[1], place[2] - 0.02)], "f4")
         scene.add_instance(curves=scene.add_curves(stick, numpy.array([2], "i4"), 0.018), materials=[wood])
-    scene.set(width=960, height=600, samples=64, motion_blur=True)
+    scene.set(width=960, height=600, samples=48, motion_blur=True)
     scene.add_camera(gonio.look_at((0.04, 0.62, 4.1), (-0.02, 0.86, 0.0)), fov=25)
     finished(scene, sys.argv[1] if len(sys.argv) > 1 else "pinwheels.png", exposure=1.1)
 

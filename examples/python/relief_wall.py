@@ -71,7 +71,7 @@ def main() -> None:
         scene.add_light("disk", lumens=620.0, temperature=4000.0, radius=0.025, spot=(46.0, 0.9), transform=aim, visible=False)
     # The room's other light, turned low.
     scene.add_light("rectangle", lumens=240.0, temperature=3500.0, width=2.0, height=0.4, transform=gonio.look_at((0, 2.6, 3.2), (0, 0, 2.4)), visible=False)
-    scene.set(width=960, height=600, samples=64)
+    scene.set(width=960, height=600, samples=40)
     scene.add_camera(gonio.look_at((-0.65, 1.42, 4.55), (0.05, 1.28, 0)), fov=38)
     finished(scene, sys.argv[1] if len(sys.argv) > 1 else "relief_wall.png", exposure=0.3)
 
