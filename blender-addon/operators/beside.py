@@ -39,7 +39,11 @@ class Beside:
             self._tell(context)
             return {"RUNNING_MODAL"}
         self.cancel(context)
-        return self._arrived(context, self._found)
+        end = self._arrived(context, self._found)
+        # What a modal operator changes is drawn where the mouse is alone.
+        for area in context.screen.areas if context.screen is not None else ():
+            area.tag_redraw()
+        return end
 
     def cancel(self, context):
         """Ends the work and waits for its thread; Blender calls it when it ends the operator itself, and when a dialog is left."""

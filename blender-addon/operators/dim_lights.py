@@ -19,7 +19,7 @@ class GONIO_OT_dim_lights(Beside, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     mean: FloatProperty(
-        name="Mean", description="Least mean of every grid of illuminance, lx; at 0 it is no target", min=0.0, soft_max=2000.0, step=5000, default=500.0
+        name="Mean (lx)", description="Least mean of every grid of illuminance; at 0 it is no target", min=0.0, soft_max=2000.0, step=5000, default=500.0
     )
     uniformity: FloatProperty(
         name="Uniformity",

@@ -124,7 +124,7 @@ def main() -> None:
     day = gonio.daylight(*PLACE, "2025-09-21T15:10+02:00", ground=0.2)
     print(day)
     scene.add_daylight(day, up="Y")
-    scene.set(width=960, height=640, samples=192)
+    scene.set(width=960, height=640, samples=64)
     # From the back of the room towards the window, turned to the wall that the sun meets.
     scene.add_camera(gonio.look_at((1.35, 1.5, 0.45), (-0.85, 1.12, 5.2)), fov=50.0)
     shapes.finished(scene, sys.argv[1] if len(sys.argv) > 1 else "daylight_room.png", exposure=0.4, white=9.0)

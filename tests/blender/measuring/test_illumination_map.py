@@ -255,6 +255,7 @@ def test_it_is_mapped_beside_blender_until_escape():
             event_timer_remove=timers.remove,
             modal_handler_add=lambda operator: None,
         ),
+        screen=None,
         workspace=SimpleNamespace(status_text_set=texts.append),
         evaluated_depsgraph_get=bpy.context.evaluated_depsgraph_get,
     )

@@ -291,6 +291,7 @@ def test_it_is_measured_beside_blender_until_escape(tmp_path: Path):
             event_timer_remove=timers.remove,
             modal_handler_add=lambda operator: None,
         ),
+        screen=None,
         workspace=SimpleNamespace(status_text_set=texts.append),
         evaluated_depsgraph_get=bpy.context.evaluated_depsgraph_get,
     )

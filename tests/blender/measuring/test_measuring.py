@@ -99,6 +99,7 @@ def test_grids_are_measured_beside_blender_until_escape():
         view_layer=bpy.context.view_layer,
         window=None,
         window_manager=manager,
+        screen=None,
         workspace=SimpleNamespace(status_text_set=texts.append),
         evaluated_depsgraph_get=bpy.context.evaluated_depsgraph_get,
     )
