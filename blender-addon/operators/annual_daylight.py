@@ -10,15 +10,14 @@ import numpy as np
 from bpy.props import FloatProperty, IntProperty, StringProperty, IntVectorProperty
 
 from .. import measuring, report
-from .beside import Beside
-from .measure_grids import FAILURES, grids_of, meter_of, write_image
+from .measure_grids import FAILURES, OnGrids, has_grids, meter_of, write_image
 from .polling import can_run, is_engine
 
 # Pixels of a plan's longer side, about.
 SIDE = 900
 
 
-class GONIO_OT_annual_daylight(Beside, bpy.types.Operator):
+class GONIO_OT_annual_daylight(OnGrids, bpy.types.Operator):
     """Calculate a year of daylight on all calculation grids that measure illuminance, from a weather file. Lamps are dark; the weather's sky and sun shine from the world's north"""
 
     bl_idname = "gonio.annual_daylight"
@@ -43,8 +42,7 @@ class GONIO_OT_annual_daylight(Beside, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        has_grids = context.scene is not None and any(True for _ in grids_of(context))
-        return can_run(cls, is_engine(context), (has_grids, "No object of the scene is a grid: Object Properties, Calculation Grid"))
+        return can_run(cls, is_engine(context), has_grids(context))
 
     def invoke(self, context, event):
         """Asks for the file, then works beside Blender until ESC."""
@@ -69,12 +67,6 @@ class GONIO_OT_annual_daylight(Beside, bpy.types.Operator):
         return gonio.annual(
             meter.scene, weather, samples=self.samples, schedule=tuple(self.hours), blinds=blinds, up="Z", north=north, cancelled=cancelled
         )
-
-    def _arrived(self, context, found):
-        try:
-            return self._publish(context, self._meter, found.result())
-        except FAILURES as error:
-            return self._fail(error)
 
     def _publish(self, context, meter, found):
         report.publish(meter.report)

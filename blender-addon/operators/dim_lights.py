@@ -6,12 +6,11 @@ import gonio
 from bpy.props import BoolProperty, FloatProperty, IntProperty, StringProperty
 
 from .. import dimming, measuring, report
-from .beside import Beside
-from .measure_grids import FAILURES, grids_of, meter_of
+from .measure_grids import FAILURES, OnGrids, grids_of, has_grids, meter_of
 from .polling import can_run, is_engine
 
 
-class GONIO_OT_dim_lights(Beside, bpy.types.Operator):
+class GONIO_OT_dim_lights(OnGrids, bpy.types.Operator):
     """Dim the light groups so that the calculation grids meet targets at least power. An object's group is in its Light Group panel; light of no group stays"""
 
     bl_idname = "gonio.dim_lights"
@@ -41,12 +40,11 @@ class GONIO_OT_dim_lights(Beside, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        has_grids = context.scene is not None and any(True for _ in grids_of(context))
         has_groups = context.scene is not None and any(thing.lightgroup for thing in context.scene.objects if thing.type == "LIGHT")
         return can_run(
             cls,
             is_engine(context),
-            (has_grids, "No object of the scene is a grid: Object Properties, Calculation Grid"),
+            has_grids(context),
             (has_groups, "No light of the scene is in a light group: Object Properties, Light Group"),
         )
 
@@ -77,12 +75,6 @@ class GONIO_OT_dim_lights(Beside, bpy.types.Operator):
         """What `gonio.dim` finds; it asks nothing of Blender, so that any thread may wait for it."""
         near = "equal" if self.is_even else None
         return gonio.dim(meter.scene, asked, min_level=self.least, near=near, samples=self.samples, cancelled=cancelled)
-
-    def _arrived(self, context, found):
-        try:
-            return self._publish(context, self._meter, found.result())
-        except FAILURES as error:
-            return self._fail(error)
 
     def _publish(self, context, meter, found):
         levels = {group["name"]: group["level"] for group in found["groups"]}

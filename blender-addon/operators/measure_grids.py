@@ -14,7 +14,17 @@ from .polling import can_run, is_engine
 FAILURES = (gonio.Error, ValueError, TypeError, RuntimeError)
 
 
-class GONIO_OT_measure_grids(Beside, bpy.types.Operator):
+class OnGrids(Beside):
+    """What operators on calculation grids share: their meter waits in `_meter` while they work beside Blender."""
+
+    def _arrived(self, context, found):
+        try:
+            return self._publish(context, self._meter, found.result())
+        except FAILURES as error:
+            return self._fail(error)
+
+
+class GONIO_OT_measure_grids(OnGrids, bpy.types.Operator):
     """Measure light on all calculation grids of the view layer; values and pictures become a text and images of the file"""
 
     bl_idname = "gonio.measure_grids"
@@ -25,8 +35,7 @@ class GONIO_OT_measure_grids(Beside, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        has_grids = context.scene is not None and any(True for _ in grids_of(context))
-        return can_run(cls, is_engine(context), (has_grids, "No object of the scene is a grid: Object Properties, Calculation Grid"))
+        return can_run(cls, is_engine(context), has_grids(context))
 
     def execute(self, context):
         try:
@@ -43,12 +52,6 @@ class GONIO_OT_measure_grids(Beside, bpy.types.Operator):
             return self._fail(error)
         context.workspace.status_text_set("Gonio measures the grids    ESC: Cancel")
         return self._go(context, self._meter.grids, self.samples)
-
-    def _arrived(self, context, found):
-        try:
-            return self._publish(context, self._meter, found.result())
-        except FAILURES as error:
-            return self._fail(error)
 
     def _publish(self, context, meter, found):
         report.publish(meter.report)
@@ -69,6 +72,12 @@ def meter_of(context):
     meter = measuring.Meter(depsgraph)
     meter.put_grids(depsgraph, list(grids_of(context)))
     return meter
+
+
+def has_grids(context) -> tuple[bool, str]:
+    """The condition that there is something to measure on."""
+    words = "No object of the scene is a grid: Object Properties, Calculation Grid"
+    return context.scene is not None and any(True for _ in grids_of(context)), words
 
 
 def grids_of(context):

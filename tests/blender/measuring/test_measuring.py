@@ -86,7 +86,7 @@ def test_grids_are_measured_beside_blender_until_escape():
     floor.gonio.is_grid, floor.gonio.grid_spacing = True, 4.0
     operator = importlib.import_module("gonio_extension.operators.measure_grids").GONIO_OT_measure_grids
     latest = importlib.import_module("gonio_extension.measuring").latest
-    names = ("invoke", "_arrived", "_publish")
+    names = ("invoke", "_publish")
     said, timers, texts = [], [], []
     Running = type("Running", operator.__bases__[:1], {**{name: vars(operator)[name] for name in names}, "report": lambda self, kind, text: said.append(text)})
     manager = SimpleNamespace(
