@@ -9,11 +9,10 @@ use crate::context::Context;
 use crate::model::{Element, Group, Inherited, Kind, Model, Shape};
 use crate::options::Purpose;
 use crate::roles::Role;
-use crate::view::shines;
 use crate::volume::{self, Filling, PlacedVolume};
 use crate::{camera, daylight, haze, light, light_filter, material, mesh_light, meter, primvar};
 use gonio::scene::{
-    Geometry, GridArea, Instances, Light, MaterialId, MeshId, Origin, Primvar, PrimvarInterpolation, Scene, Transform, Visibility,
+    Geometry, GridArea, Instances, Light, Material, MaterialId, MeshId, Origin, Primvar, PrimvarInterpolation, Scene, Transform, Visibility,
 };
 use gonio::{Error, Result, memory::room_for};
 use linking::{Collections, LinkTable};
@@ -252,7 +251,7 @@ impl<'py> Placer<'_, '_, 'py> {
     /// The light group that the prim names, for what shines.
     fn light_group(&mut self, element: &Element, placement: &Placement, materials: &[MaterialId]) -> String {
         let scene = &self.context.scene;
-        if !materials.iter().filter_map(|id| scene.materials.get(id.index())).any(shines) {
+        if !materials.iter().filter_map(|id| scene.materials.get(id.index())).any(Material::shines) {
             return String::new();
         }
         let prim = self.context.prim_at(&placement.path(&element.path));

@@ -8,7 +8,7 @@ use crate::settings::conform_cameras;
 use crate::stage::Loaded;
 use crate::{data_window, render_variable};
 use gonio::compile::Bounds;
-use gonio::scene::{Input, Material, Origin};
+use gonio::scene::{Material, Origin};
 use gonio::{Diagnostic, Error, Result};
 
 /// Width of pictures where nothing says otherwise, as usdrecord has it.
@@ -109,7 +109,7 @@ pub fn complete(loaded: &mut Loaded, primary_camera: &str, options: &ViewOptions
             width * scene.settings.pixel_aspect / height.max(1.0),
         ));
     }
-    if scene.lights.is_empty() && options.camera_light && !scene.materials.iter().any(|material| shines(material) || glows(material)) {
+    if scene.lights.is_empty() && options.camera_light && !scene.materials.iter().any(|material| material.shines() || glows(material)) {
         let (light, words) = match options.headlight {
             Headlight::Camera => (camera_light(&scene.cameras[scene.settings.camera as usize]), "one at the camera"),
             Headlight::Dome => (dome_light(), "an even sky"),
@@ -156,13 +156,4 @@ fn set_resolution(loaded: &mut Loaded, options: &ViewOptions) -> Result<()> {
 /// Whether what is within a material shines by itself.
 fn glows(material: &Material) -> bool {
     material.medium.emission.iter().any(|x| *x > 0.0)
-}
-
-/// Whether a material shines by itself, or takes light away.
-pub fn shines(material: &Material) -> bool {
-    let sends = |glow| match glow {
-        Input::Constant(value) => value[..3].iter().any(|x| *x != 0.0),
-        Input::Node(..) => true,
-    };
-    material.closures.iter().filter_map(|closure| closure.input("emission_color")).any(sends)
 }

@@ -43,8 +43,7 @@ pub(super) fn render(
     let (found, diagnostics) =
         watched(Reporter::new(options.quiet), previous, interrupted, |watch| spectral_picture(scene, bands, execution, watch))?;
     tell(&options.stage, options.quiet, &diagnostics);
-    let exposure = scene.cameras[scene.settings.camera as usize].exposure.0;
-    let notes = ExrOptions { exposure, attributes: attributes(options, scene).to_vec(), ..ExrOptions::default() };
+    let notes = ExrOptions { attributes: attributes(options, scene).to_vec(), ..ExrOptions::default() };
     write_spectral(path, &found, &notes)?;
     if !options.quiet {
         print_path(path);

@@ -102,7 +102,7 @@ impl Picture {
     pub(super) fn unit(quantity: &str) -> &'static str {
         match quantity.to_ascii_lowercase().as_str() {
             "luminance" => "cd/m²",
-            "illuminance" => "lx",
+            "illuminance" | "melanopic-edi" => "lx",
             "cct" => "K",
             "melanopic" => "cd/m²",
             _ => "",

@@ -5,7 +5,7 @@ use super::{
     channel::picture_of,
     file::{check_ending, check_targets, ending, print_path, put},
     messages::say,
-    relight::{PREFIX, find, groups_of, missing, tell_missing},
+    relight::{find, groups_of, missing, tell_missing},
     render,
     share::share as share_of,
 };
@@ -14,7 +14,7 @@ use gonio::{
     Error, Result,
     light::blackbody_rgb,
     output::{Channels, Look, display_over_black, encode_jpeg, exposure_of_exr, log_average, read_exr},
-    scene::OTHER_LIGHTS,
+    scene::{LIGHT_GROUP, OTHER_LIGHTS},
 };
 use gonio_share::{Group, Language, Page, Picture, Problem, Scene, Setting, Tints, page};
 use gonio_simd::Execution;
@@ -114,7 +114,7 @@ fn picture(options: &ShareOptions, channels: &Channels, names: &[String], size: 
 fn light_of(channels: &Channels, name: &str, [width, height]: [usize; 2]) -> Vec<f32> {
     let mut light = vec![0.0; 3 * width * height];
     for (k, channel) in ["R", "G", "B"].into_iter().enumerate() {
-        let values = find(channels, &format!("{PREFIX}{name}.{channel}")).unwrap_or_default();
+        let values = find(channels, &format!("{LIGHT_GROUP}{name}.{channel}")).unwrap_or_default();
         light.iter_mut().skip(k).step_by(3).zip(values).for_each(|(light, value)| *light = *value);
     }
     light

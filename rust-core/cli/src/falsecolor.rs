@@ -39,9 +39,9 @@ pub(super) fn scale(arguments: &ScaleArguments, values: &[f32]) -> Result<FalseC
     FalseColourScale::of_values(values, arguments.max, arguments.steps, arguments.log, false)
 }
 
-/// The scale of a picture; CCT and Duv have no meaning at 0.
+/// The scale of a picture; figures of colour have no meaning at 0.
 fn of_quantity(options: &FalsecolorOptions, values: &[f32]) -> Result<FalseColourScale> {
-    let is_of_colour = ["cct", "duv"].iter().any(|name| options.quantity.eq_ignore_ascii_case(name));
+    let is_of_colour = ["cct", "duv", "ra", "rf", "rg"].iter().any(|name| options.quantity.eq_ignore_ascii_case(name));
     let ScaleArguments { max, steps, log } = options.scale;
     FalseColourScale::of_values(values, max, steps, log, is_of_colour)
 }

@@ -106,6 +106,6 @@ fn volumes(scene: &Scene) -> Vec<String> {
 }
 
 fn emissive(scene: &Scene) -> Vec<String> {
-    let shining = scene.materials.iter().filter(|material| gonio_usd::view::shines(material));
+    let shining = scene.materials.iter().filter(|material| material.shines());
     shining.map(|material| format!("emissive material {}", material.origin.name)).collect()
 }

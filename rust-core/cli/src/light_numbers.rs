@@ -6,7 +6,6 @@ use gonio::{
     compile::luminous_fluxes,
     scene::{Input, Light, LightQuantity, LightShape, Material, OpeningShape, Scene},
 };
-use gonio_usd::view::shines;
 use serde_json::{Value, json};
 
 /// All lights of a scene; keys end in their units, and what a light has not is null.
@@ -16,7 +15,7 @@ pub(super) fn lights(scene: &Scene) -> Vec<Value> {
 
 /// Materials that shine by themselves, each with its luminance in cd/m², which is null where it varies.
 pub(super) fn emissive_materials(scene: &Scene) -> Vec<Value> {
-    let shining = scene.materials.iter().filter(|material| shines(material));
+    let shining = scene.materials.iter().filter(|material| material.shines());
     shining.map(|material| json!({ "path": &*material.origin.name, "luminance_cd_m2": luminance_sent(material) })).collect()
 }
 

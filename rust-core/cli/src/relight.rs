@@ -4,19 +4,18 @@ use super::{
     arguments::RelightOptions,
     file::{check_ending, check_targets, print_path, write_or_keep},
     messages::say,
+    spectrum,
 };
 use gonio::{
     Error, Result,
     colour::luminance_of_pixel,
     film::{Frame, Image, Layer},
     light::blackbody_rgb,
-    output::{Channels, ExrOptions, exposure_of_exr, read_exr, view_of_exr, write_exr},
-    scene::{Aov, Crop},
+    output::{Channels, ExrOptions, exposure_of_exr, read_exr, read_spectral, view_of_exr, write_exr, write_spectral},
+    scene::{Aov, Crop, LIGHT_GROUP},
+    spectral_picture::NewLamp,
 };
 use std::path::Path;
-
-/// What stands before a group's name in the names of its channels.
-pub(super) const PREFIX: &str = "lightgroup:";
 
 /// Share of a picture's light that its groups may lack: rounding to half precision and denoising stay below.
 const MOST_MISSING: f64 = 0.01;
@@ -27,6 +26,13 @@ pub(super) fn relight(options: &RelightOptions) -> Result<i32> {
     check_targets([&options.output])?;
     let asked = options.group.iter().map(|text| parse(text)).collect::<Result<Vec<_>>>()?;
     let (channels, size) = read_exr(&options.image)?;
+    if channels.iter().any(|(name, _)| name.starts_with(LIGHT_GROUP) && name.contains(".S0.")) {
+        return by_wavelength(options);
+    }
+    if let Some(asked) = options.spectrum.first() {
+        let problem = format!("'{asked}' wants groups by wavelength, which gonio render --by-wavelength FILE.exr --light-groups writes");
+        return Err(Error::setting("spectrum", problem));
+    }
     let exposure = exposure_of_exr(&options.image)?;
     let names = groups_of(&options.image, &channels)?;
     if let Some((unknown, _)) = asked.iter().find(|(name, _)| !names.contains(name)) {
@@ -40,6 +46,45 @@ pub(super) fn relight(options: &RelightOptions) -> Result<i32> {
     write_or_keep(&options.output, |path| write_exr(path, &image, &ExrOptions { exposure, ..ExrOptions::default() }))?;
     print_path(&options.output);
     Ok(0)
+}
+
+/// Relights a picture by wavelength.
+fn by_wavelength(options: &RelightOptions) -> Result<i32> {
+    let lamps = new_lamps(options)?;
+    let (found, notes) = read_spectral(&options.image)?.relit(&lamps)?;
+    notes.iter().for_each(|note| say(&format!("note: {note}")));
+    write_or_keep(&options.output, |path| write_spectral(path, &found, &ExrOptions::default()))?;
+    print_path(&options.output);
+    Ok(0)
+}
+
+/// What was asked for, group by group; the last word on a group counts.
+fn new_lamps(options: &RelightOptions) -> Result<Vec<NewLamp>> {
+    let mut lamps: Vec<NewLamp> = Vec::new();
+    let mut at = |group: &str| {
+        let known = lamps.iter().position(|lamp| lamp.group == group);
+        known.unwrap_or_else(|| {
+            lamps.push(NewLamp { group: group.to_owned(), factor: 1.0, spectrum: None });
+            lamps.len() - 1
+        })
+    };
+    let wrong = |name: &str, text: &str, expected: &str| Error::setting(name, format!("'{text}' was found, expected {expected}"));
+    let mut words = Vec::new();
+    for text in &options.group {
+        let expected = "NAME=FACTOR for a picture by wavelength; --spectrum NAME=2700K gives it a colour temperature";
+        let (group, factor) = text.rsplit_once('=').ok_or_else(|| wrong("group", text, expected))?;
+        let factor = factor.trim().parse::<f64>().ok().filter(|x| x.is_finite() && *x >= 0.0);
+        words.push((at(group), Some(factor.ok_or_else(|| wrong("group", text, expected))?), None));
+    }
+    for text in &options.spectrum {
+        let (group, source) = text.split_once('=').ok_or_else(|| wrong("spectrum", text, "NAME=LAMP"))?;
+        words.push((at(group), None, Some(spectrum::one(source)?)));
+    }
+    for (number, factor, spectrum) in words {
+        lamps[number].factor = factor.unwrap_or(lamps[number].factor);
+        lamps[number].spectrum = spectrum.or_else(|| lamps[number].spectrum.take());
+    }
+    Ok(lamps)
 }
 
 /// A group's name and factors of red, green and blue.
@@ -76,7 +121,7 @@ pub(super) fn tell_missing(share: f64) {
 
 /// Names of the groups that the channels hold.
 fn groups(channels: &Channels) -> Vec<String> {
-    channels.iter().filter_map(|(name, _)| Some(name.strip_prefix(PREFIX)?.strip_suffix(".R")?.to_owned())).collect()
+    channels.iter().filter_map(|(name, _)| Some(name.strip_prefix(LIGHT_GROUP)?.strip_suffix(".R")?.to_owned())).collect()
 }
 
 pub(super) fn find<'a>(channels: &'a Channels, name: &str) -> Option<&'a [f32]> {
@@ -89,7 +134,7 @@ pub(super) fn missing(channels: &Channels, names: &[String]) -> f64 {
         let values = ["R", "G", "B"].into_iter().filter_map(|channel| find(channels, &format!("{prefix}{channel}"))).flatten();
         values.copied().filter(|value| value.is_finite()).map(f64::from).sum()
     };
-    let of_groups: f64 = names.iter().map(|name| light(&format!("{PREFIX}{name}."))).sum();
+    let of_groups: f64 = names.iter().map(|name| light(&format!("{LIGHT_GROUP}{name}."))).sum();
     let colour = light("");
     if colour > 0.0 { 1.0 - of_groups / colour } else { 0.0 }
 }
@@ -105,13 +150,13 @@ fn relit(channels: &Channels, [width, height]: [usize; 2], exposure: f32, names:
         let factors = factor(name);
         let mut values = vec![0.0; 3 * pixels];
         for (k, channel) in ["R", "G", "B"].into_iter().enumerate() {
-            let from = find(channels, &format!("{PREFIX}{name}.{channel}")).unwrap_or_default();
+            let from = find(channels, &format!("{LIGHT_GROUP}{name}.{channel}")).unwrap_or_default();
             for (pixel, value) in from.iter().enumerate().take(pixels) {
                 values[3 * pixel + k] = value * factors[k];
                 colour[4 * pixel + k] += value * factors[k];
             }
         }
-        layers.push(Layer { aov: Aov::LightGroup(number as u16), name: format!("{PREFIX}{name}"), values, channels: 3 });
+        layers.push(Layer { aov: Aov::LightGroup(number as u16), name: format!("{LIGHT_GROUP}{name}"), values, channels: 3 });
     }
     if find(channels, "Luminance").is_some() {
         let luminance = |c: &[f32]| luminance_of_pixel([c[0], c[1], c[2]]) / exposure;

@@ -5,10 +5,10 @@ use super::{
     messages::say,
 };
 use gonio::map::FaceTable;
-use gonio::scene::{HAZE_ANISOTROPY, Medium, Origin, Transform, VISIBILITY_CONTRAST};
+use gonio::scene::{HAZE_ANISOTROPY, Material, Medium, Origin, Transform, VISIBILITY_CONTRAST};
 use gonio::{Error, Result, Severity};
 use gonio_models::{DEFAULT_SKY_LUX, Model, Options, add_default_sky};
-use gonio_usd::{CameraInfo, Loaded, LuminaireFile, SampleTime, StageInfo, StageOptions, context::UpAxis, view::shines};
+use gonio_usd::{CameraInfo, Loaded, LuminaireFile, SampleTime, StageInfo, StageOptions, context::UpAxis};
 use pyo3::Python;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -139,7 +139,7 @@ pub(super) fn is_model(path: &Path) -> bool {
 /// Lights a model that has no light by the overcast sky, and says so; stages stay as they are.
 pub(super) fn light_model(path: &Path, loaded: &mut Loaded, is_quiet: bool) {
     let scene = &mut loaded.scene;
-    if !is_model(path) || !scene.lights.is_empty() || scene.materials.iter().any(shines) {
+    if !is_model(path) || !scene.lights.is_empty() || scene.materials.iter().any(Material::shines) {
         return;
     }
     add_default_sky(scene);

@@ -1,11 +1,12 @@
 //! Pictures by wavelength, as `gonio render --by-wavelength` writes them, and what they tell: channels of sensors, CCT, Duv, melanopic luminance.
 
-use super::channel::colour_of;
+use super::{channel::colour_of, messages::say};
 use gonio::{
     Error, Result,
-    output::{Channels, has_other_primaries},
+    output::{Channels, has_other_primaries, read_spectral},
+    spectral_picture::LightFigure,
 };
-use gonio_spectrum::{cct_of_colour, melanopic_daylight};
+use gonio_spectrum::{TOLERANCE, cct_of_colour, melanopic_daylight};
 use std::path::Path;
 
 /// Bands of a picture by wavelength, by their channels' names, in order.
@@ -56,6 +57,9 @@ impl<'a> Wavelengths<'a> {
 /// # Errors
 /// The file has nothing of which it could be told.
 pub(super) fn derived(path: &Path, channels: &Channels, quantity: &str) -> Result<Option<Vec<f32>>> {
+    if let Some(figure) = LightFigure::by_name(quantity) {
+        return on_surfaces(path, figure).map(Some);
+    }
     let figure: fn((f64, f64)) -> f64 = match quantity.to_ascii_lowercase().as_str() {
         "cct" => |(kelvin, _)| kelvin,
         "duv" => |(_, duv)| duv,
@@ -69,6 +73,22 @@ pub(super) fn derived(path: &Path, channels: &Channels, quantity: &str) -> Resul
     let of_pixel =
         |((r, g), b): ((&f32, &f32), &f32)| cct_of_colour([*r, *g, *b].map(f64::from)).map_or(f32::NAN, |found| figure(found) as f32);
     Ok(Some(red.iter().zip(green).zip(blue).map(of_pixel).collect()))
+}
+
+/// A figure of the light on what the picture shows.
+fn on_surfaces(path: &Path, figure: LightFigure) -> Result<Vec<f32>> {
+    let values = read_spectral(path)?.light_figure(figure)?;
+    let without = values.iter().filter(|value| value.is_nan()).count() as f64 / values.len().max(1) as f64;
+    if without > 0.0 {
+        let range = if figure == LightFigure::Ra {
+            format!(", or is more than {TOLERANCE} in Duv from Ra's reference (CIE 13.3)")
+        } else {
+            String::new()
+        };
+        let share = 100.0 * without;
+        say(&format!("note: {share:.1} % of the picture have no {}: nothing is lit there, the light is not white{range}", figure.name()));
+    }
+    Ok(values)
 }
 
 /// Melanopic equivalent daylight luminance, cd/m².

@@ -11,10 +11,10 @@ use gonio::{
     measure::Watch,
     output::{ExrOptions, write_spectral},
     scene::Aov,
-    spectral_picture::{self as engine},
+    spectral_picture::{self as engine, LightFigure, NewLamp},
 };
 use gonio_simd::Execution;
-use gonio_spectrum::bands_of;
+use gonio_spectrum::{Spectrum, bands_of};
 use pyo3::prelude::*;
 use std::path::PathBuf;
 
@@ -35,10 +35,7 @@ impl SpectralPicture {
     /// Spectral radiance, W/(m² sr nm): rows, columns, bands.
     #[getter]
     fn radiance(&self, py: Python<'_>) -> Pass {
-        let (size, bands) = (self.found.image.size(), &self.found.radiance);
-        let pixels = size[0] * size[1];
-        let values = py.detach(|| (0..pixels).flat_map(|pixel| bands.iter().map(move |band| band[pixel])).collect());
-        Pass::new(size, bands.len(), &[], values)
+        self.by_pixel(py, self.found.radiance())
     }
     /// Linear Rec.709 in cd/m² and coverage: rows, columns, 4.
     #[getter]
@@ -51,9 +48,54 @@ impl SpectralPicture {
     fn diagnostics(&self) -> Vec<(String, String)> {
         self.diagnostics.clone()
     }
+    /// Names of its passes by wavelength: color, and illuminance and lightgroup:NAME where the scene asks for them.
+    #[getter]
+    fn names(&self) -> Vec<String> {
+        self.found.layers.iter().map(|layer| layer.name.clone()).collect()
+    }
+    /// A pass by wavelength, W/(m² sr nm), illuminance in W/(m² nm): rows, columns, bands.
+    fn layer(&self, py: Python<'_>, name: &str) -> PyResult<Pass> {
+        let layer = self.found.layers.iter().find(|layer| layer.name == name);
+        let unknown = || setting("name", format!("'{name}' was found, expected one of {}", self.names().join(", ")));
+        Ok(self.by_pixel(py, &layer.ok_or_else(unknown)?.bands))
+    }
+    /// A figure of the light on what each pixel shows: ra, rf, rg or melanopic-edi (lx), rows and columns, of a scene whose passes have illuminance. NaN where it
+    /// is not defined.
+    fn light_figure(&self, py: Python<'_>, name: &str) -> PyResult<Pass> {
+        let expected = || LightFigure::ALL.map(LightFigure::name).join(", ");
+        let figure =
+            LightFigure::by_name(name).ok_or_else(|| setting("name", format!("'{name}' was found, expected one of {}", expected())))?;
+        let values = py.detach(|| self.found.light_figure(figure)).map_err(exception)?;
+        Ok(Pass::new(self.found.image.size(), 1, &["Y"], values))
+    }
+    /// With other lamps in its light groups: a list of (name, factor, spectrum), where a spectrum is (wavelengths in nm, power) or None to keep what
+    /// it was, and factors are of lumens. Diagnostics say what is approximate.
+    fn relit(&self, py: Python<'_>, groups: Vec<(String, f64, Option<(Vec<f64>, Vec<f64>)>)>) -> PyResult<Self> {
+        let lamp = |(group, factor, spectrum): (String, f64, Option<(Vec<f64>, Vec<f64>)>)| {
+            if !(factor.is_finite() && factor >= 0.0) {
+                return Err(setting("factor", format!("{factor} was found, expected a number from 0 on")));
+            }
+            let spectrum = spectrum.map(|(nm, power)| Spectrum::new(&group, &nm, &power)).transpose();
+            let spectrum = spectrum.map_err(|error| setting("spectrum", format!("of {group}: {error}")))?;
+            Ok(NewLamp { group, factor, spectrum })
+        };
+        let lamps = groups.into_iter().map(lamp).collect::<PyResult<Vec<_>>>()?;
+        let (found, notes) = py.detach(|| self.found.clone().relit(&lamps)).map_err(exception)?;
+        Ok(Self { found, diagnostics: notes.into_iter().map(|note| ("light groups".to_owned(), note)).collect() })
+    }
     /// Writes it: .exr in the layout of Fichet and others, .hsr of Radiance.
     fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         py.detach(|| write_spectral(&path, &self.found, &ExrOptions::default())).map_err(exception)
+    }
+}
+
+impl SpectralPicture {
+    /// Bands as rows, columns, bands.
+    fn by_pixel(&self, py: Python<'_>, bands: &[Vec<f32>]) -> Pass {
+        let size = self.found.image.size();
+        let pixels = size[0] * size[1];
+        let values = py.detach(|| (0..pixels).flat_map(|pixel| bands.iter().map(move |band| band[pixel])).collect());
+        Pass::new(size, bands.len(), &[], values)
     }
 }
 

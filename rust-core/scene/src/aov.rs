@@ -95,7 +95,7 @@ pub(super) fn standard_pass(name: &str) -> Option<ShaderValue> {
 }
 
 /// What stands before the name of a light group in the name of its pass.
-pub(super) const LIGHT_GROUP: &str = "lightgroup:";
+pub const LIGHT_GROUP: &str = "lightgroup:";
 
 /// The light group of all lights that are in none.
 pub const OTHER_LIGHTS: &str = "other";

@@ -15,10 +15,16 @@ impl Scene {
     /// Whether anything may send light that is no light: a surface, a solid, what fills meshes or all of space.
     pub fn shines_without_lights(&self) -> bool {
         let shines = |medium: &Medium| medium.emission != [0.0; 3];
+        let within = |material: &Material| shines(&material.medium) || material.closures.iter().any(|closure| shines(&closure.solid));
+        shines(&self.atmosphere) || self.materials.iter().any(|material| material.shines() || within(material))
+    }
+}
+
+impl Material {
+    /// Whether its surface shines by itself, or takes light away.
+    pub fn shines(&self) -> bool {
         let sends = |input: Input| !matches!(input, Input::Constant(colour) if colour[..3].iter().all(|part| *part == 0.0));
-        let closure = |closure: &Closure| shines(&closure.solid) || closure.input("emission_color").is_some_and(sends);
-        let material = |material: &Material| shines(&material.medium) || material.closures.iter().any(closure);
-        shines(&self.atmosphere) || self.materials.iter().any(material)
+        self.closures.iter().filter_map(|closure| closure.input("emission_color")).any(sends)
     }
 }
 

@@ -41,7 +41,9 @@ mod texture;
 mod transform;
 
 pub use antialiasing::Antialiasing;
-pub use aov::{AMBIENT_OCCLUSION, Aov, EYE_NORMAL, EYE_POSITION, LightPart, OTHER_LIGHTS, PRIMVARS, ScatteringKind, ShaderValue};
+pub use aov::{
+    AMBIENT_OCCLUSION, Aov, EYE_NORMAL, EYE_POSITION, LIGHT_GROUP, LightPart, OTHER_LIGHTS, PRIMVARS, ScatteringKind, ShaderValue,
+};
 pub use atomic::{Output, check_writable, is_ordinary, write_atomically, write_beside};
 pub use bundle::digest_scene;
 pub use bundle::{load_bundle, of_bundle, save_bundle, to_bundle, with_images};

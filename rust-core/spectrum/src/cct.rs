@@ -37,7 +37,11 @@ fn blackbody(log: f64) -> [f64; 2] {
 
 /// Correlated colour temperature in K, to about a kelvin, and Duv of linear Rec.709, for pictures; `None` where it is not white.
 pub fn cct_of_colour(rec709: [f64; 3]) -> Option<(f64, f64)> {
-    let uv = observer::uv(turned(&REC709_TO_XYZ, rec709));
+    cct_nearby(observer::uv(turned(&REC709_TO_XYZ, rec709)))
+}
+
+/// Correlated colour temperature in K, to about a kelvin, and Duv of a chromaticity in the 1960 diagram; `None` where it is not white.
+pub(crate) fn cct_nearby(uv: [f64; 2]) -> Option<(f64, f64)> {
     let squared = |place: usize| distance(uv, LOCUS[place].1).powi(2);
     let nearest = (0..LOCUS.len()).min_by(|a, b| squared(*a).total_cmp(&squared(*b)))?.clamp(1, LOCUS.len() - 2);
     // The parabola through the three squares has its least between them.

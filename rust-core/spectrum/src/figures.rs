@@ -5,8 +5,8 @@ use crate::{
     cct::{HIGHEST_CCT, LARGEST_DUV, LOWEST_CCT, cct},
     illuminant::DAYLIGHT,
     observer::{EFFICACY, cie_1931, uv, xy},
-    rendering::{Rendering, TOLERANCE, rendering},
-    rendition::{Rendition, rendition},
+    rendering::{self, Rendering, TOLERANCE, rendering},
+    rendition::{self, Rendition, rendition},
     source::{Spectrum, sums},
 };
 
@@ -52,8 +52,10 @@ pub fn figures(spectrum: &Spectrum) -> Figures {
     let mut notes = spectrum.notes.clone();
     let white = match cct([u, v]) {
         Some((cct, duv)) if duv.abs() <= LARGEST_DUV => {
-            let rendering = rendering(&nodes, cct.min(DAYLIGHT[1]));
-            let white = White { cct, duv, rendering, rendition: rendition(&nodes, cct.min(DAYLIGHT[1])) };
+            let kelvin = cct.min(DAYLIGHT[1]);
+            let rendering = rendering(&nodes, &rendering::samples(&nodes), kelvin);
+            let within = rendition::within(&nodes);
+            let white = White { cct, duv, rendering, rendition: rendition(&within, &rendition::samples(&within), kelvin) };
             notes.extend(doubts(&white));
             Some(white)
         }

@@ -3,13 +3,17 @@
 use crate::{
     illuminant::rendering_reference,
     observer::{self, cie_1931},
-    source::{Node, sums},
+    samples::Samples,
+    source::Node,
     table::Table,
 };
 use std::sync::LazyLock;
 
 /// How far a lamp may be from its reference in the CIE 1960 diagram (CIE 13.3, 5.3).
 pub const TOLERANCE: f64 = 5.4e-3;
+
+/// How many samples there are, the Japanese skin last.
+const COUNT: usize = 15;
 
 pub(crate) static SAMPLES: LazyLock<Table> = LazyLock::new(|| Table::new(include_str!("../data/samples.csv")));
 
@@ -24,16 +28,19 @@ pub struct Rendering {
     pub distance: f64,
 }
 
+/// The samples at the points of a lamp's sums.
+pub(crate) fn samples(nodes: &[Node]) -> Samples {
+    Samples::new(nodes, cie_1931, &SAMPLES, COUNT)
+}
+
 /// The indices of a lamp of a correlated colour temperature in K.
-pub(crate) fn rendering(nodes: &[Node], kelvin: f64) -> Rendering {
-    let reference = rendering_reference(nodes, kelvin);
-    let [white, of_reference] = [sums(nodes, cie_1931), sums(&reference, cie_1931)];
-    let [at, to] = [observer::uv(white), observer::uv(of_reference)];
+pub(crate) fn rendering(nodes: &[Node], samples: &Samples, kelvin: f64) -> Rendering {
+    let [lamp, reference] = [samples.under(nodes), samples.under(&rendering_reference(nodes, kelvin))];
+    let [at, to] = [observer::uv(lamp.white), observer::uv(reference.white)];
     let index = |sample: usize| {
-        let reflected = |nm: f64| cie_1931(nm).map(|observed| observed * SAMPLES.at(sample, nm));
         let scaled = |sums: [f64; 3], white: [f64; 3]| sums.map(|value| 100.0 * value / white[1]);
-        let test = scaled(sums(nodes, reflected), white);
-        let reference = scaled(sums(&reference, reflected), of_reference);
+        let test = scaled(lamp.samples[sample], lamp.white);
+        let reference = scaled(reference.samples[sample], reference.white);
         let test = uniform(test[1], adapted(observer::uv(test), at, to), to);
         let reference = uniform(reference[1], observer::uv(reference), to);
         let difference = test.iter().zip(reference).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();

@@ -4,7 +4,8 @@ use crate::{
     appearance::{Adapted, Appearance},
     illuminant::fidelity_reference,
     observer::cie_1964,
-    source::{Node, sums},
+    samples::{Samples, Seen},
+    source::Node,
     table::Table,
 };
 use std::sync::LazyLock;
@@ -51,10 +52,19 @@ pub struct HueBin {
     pub reference: [f64; 2],
 }
 
-/// The figures of a lamp of a correlated colour temperature in K; `None` where the colour appearance model has no answer.
-pub(crate) fn rendition(nodes: &[Node], kelvin: f64) -> Option<Rendition> {
-    let nodes: Vec<Node> = nodes.iter().copied().filter(|node| (RANGE[0]..=RANGE[1]).contains(&node.nm)).collect();
-    let [test, reference] = [seen(&nodes), seen(&fidelity_reference(&nodes, kelvin))];
+/// The points of a lamp's sums that count here.
+pub(crate) fn within(nodes: &[Node]) -> Vec<Node> {
+    nodes.iter().copied().filter(|node| (RANGE[0]..=RANGE[1]).contains(&node.nm)).collect()
+}
+
+/// The samples at these points.
+pub(crate) fn samples(nodes: &[Node]) -> Samples {
+    Samples::new(nodes, cie_1964, &CES, SAMPLES)
+}
+
+/// The figures of a lamp of a correlated colour temperature in K by its points [`within`]; `None` where the colour appearance model has no answer.
+pub(crate) fn rendition(nodes: &[Node], samples: &Samples, kelvin: f64) -> Option<Rendition> {
+    let [test, reference] = [nodes, &fidelity_reference(nodes, kelvin)].map(|light| looks(&samples.under(light)));
     let differences: Vec<f64> = test.iter().zip(&reference).map(|(a, b)| difference(a, b)).collect();
     let bins: Option<Vec<HueBin>> = (0..BINS).map(|bin| hue_bin(bin, &test, &reference, &differences)).collect();
     let bins = bins?;
@@ -68,12 +78,11 @@ pub(crate) fn rendition(nodes: &[Node], kelvin: f64) -> Option<Rendition> {
 }
 
 /// How the samples look under a light.
-fn seen(nodes: &[Node]) -> Vec<Appearance> {
-    let white = sums(nodes, cie_1964);
-    let scale = 100.0 / white[1];
-    let adapted = Adapted::new(white.map(|value| scale * value));
-    let see = |sample: usize| adapted.see(sums(nodes, |nm| cie_1964(nm).map(|observed| scale * observed * CES.at(sample, nm))));
-    (0..CES.count()).map(see).collect()
+fn looks(seen: &Seen) -> Vec<Appearance> {
+    let scale = 100.0 / seen.white[1];
+    let scaled = |sums: [f64; 3]| sums.map(|value| scale * value);
+    let adapted = Adapted::new(scaled(seen.white));
+    seen.samples.iter().map(|sample| adapted.see(scaled(*sample))).collect()
 }
 
 fn difference(a: &Appearance, b: &Appearance) -> f64 {

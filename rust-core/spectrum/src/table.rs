@@ -24,11 +24,6 @@ impl Table {
         Self { names: Vec::new(), start, step, columns }
     }
 
-    /// How many columns there are.
-    pub(crate) fn count(&self) -> usize {
-        self.columns.len()
-    }
-
     /// The wavelengths, nm, and a column's values.
     pub(crate) fn column(&self, column: usize) -> (Vec<f64>, &[f64]) {
         let values = &self.columns[column];

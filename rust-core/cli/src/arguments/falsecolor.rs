@@ -26,7 +26,7 @@ pub(crate) struct FalsecolorOptions {
     /// The picture to write.
     #[arg(long, short = 'o', value_name = "FILE.png")]
     pub(crate) output: PathBuf,
-    /// What is shown: luminance, illuminance, or the name of any channel; of the colour cct (K) and duv; of pictures by wavelength melanopic (equivalent daylight luminance, cd/m²).
+    /// What is shown: luminance, illuminance, or the name of any channel; of the colour cct (K) and duv; of pictures by wavelength melanopic (equivalent daylight luminance, cd/m²), and of the light on surfaces, where they have illuminance (--aov illuminance), ra, rf, rg and melanopic-edi (lx).
     #[arg(long, value_name = "QUANTITY", default_value = "luminance")]
     pub(crate) quantity: String,
     #[command(flatten)]

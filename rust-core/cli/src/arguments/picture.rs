@@ -23,11 +23,14 @@ pub(crate) struct CompareOptions {
 
 #[derive(Args, Debug)]
 pub(crate) struct RelightOptions {
-    /// An EXR file that was rendered with --light-groups.
+    /// An EXR file that was rendered with --light-groups, by wavelength (--by-wavelength) or not.
     pub(crate) image: PathBuf,
     /// A group's factor, and the colour temperature in K that tints it: 'Kitchen=0.3' or 'Kitchen=0.3,2700'; may be given several times.
     #[arg(long, value_name = "NAME=FACTOR[,KELVIN]")]
     pub(crate) group: Vec<String>,
+    /// Lamps of another spectrum for a group of a picture by wavelength (gonio render --by-wavelength FILE --light-groups), of as many lumens: a file or a name as gonio spectrum has them, 'Kitchen=LED-B3'; may be given several times.
+    #[arg(long, value_name = "NAME=LAMP")]
+    pub(crate) spectrum: Vec<String>,
     /// The EXR file to write: colour, luminance if the picture has it, and the groups.
     #[arg(long, short = 'o', value_name = "FILE.exr")]
     pub(crate) output: PathBuf,

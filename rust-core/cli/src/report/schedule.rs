@@ -10,7 +10,7 @@ use gonio_formats::{
     photometry::{CATALOGUE_SPACING, Goniogram, PolarUnit, polar_diagram},
     short_number,
 };
-use gonio_usd::{Loaded, LuminaireFile, view::shines};
+use gonio_usd::{Loaded, LuminaireFile};
 
 /// Lights that differ in nothing but their place.
 #[derive(Debug)]
@@ -63,7 +63,7 @@ impl<'a> Schedule<'a> {
         }
         let is_lit = |file: &&LuminaireFile| scene.lights.iter().any(|light| file.is_of(light));
         let files = loaded.luminaires.iter().filter(is_lit).collect();
-        Self { kinds, places, far, shining: scene.materials.iter().filter(|material| shines(material)).count(), files }
+        Self { kinds, places, far, shining: scene.materials.iter().filter(|material| material.shines()).count(), files }
     }
 
     /// Power in W of the lights at certain places whose files state it, how many these are, and how many have none stated.

@@ -4,7 +4,9 @@
 
 use super::compiled::CompiledScene;
 use crate::{
+    colour::luminance_of_pixel,
     error::{Error, Result},
+    scene::{Light, Material, MaterialId, OTHER_LIGHTS, Scene},
     transport::MediumTable,
 };
 use gonio_spectrum::Bands;
@@ -55,4 +57,42 @@ impl BandedScene {
         scene.tables.materials.media = self.media.seen(|colour| [self.bands.of_colour(band, colour); 3]);
         Ok(&self.scene)
     }
+    /// The bands.
+    pub(crate) fn bands(&self) -> &'static Bands {
+        self.bands
+    }
+
+    /// What all lamps of a light group send, by band over daylight D65, both of luminance 1. None where they differ, a picture tells a lamp's colours, or
+    /// what shines by itself is among them.
+    pub(crate) fn lamp_of_group(&self, scene: &Scene, group: &str) -> Option<Vec<f32>> {
+        let is_rest = group == OTHER_LIGHTS;
+        let is_of = |name: &String| name == group || is_rest && name.is_empty();
+        let shines = |id: &MaterialId| scene.materials.get(id.index()).is_some_and(Material::shines);
+        let has_surfaces = scene.instances.iter().any(|set| is_of(&set.light_group) && set.materials.iter().any(shines));
+        if has_surfaces || is_rest && scene.shines_without_lights() {
+            return None;
+        }
+        let members = scene.lights.iter().enumerate().filter(|(_, light)| is_of(&light.group) && !light.portal);
+        let mut lamps = members.filter(|(_, light)| luminance_of_pixel(light.emission.radiance) != 0.0);
+        let (number, light) = lamps.next()?;
+        let first = self.lamp(number, light)?;
+        let is_alike = |(number, light): (usize, &Light)| self.lamp(number, light).is_some_and(|other| alike(&first, &other));
+        lamps.all(is_alike).then_some(first)
+    }
+
+    /// What a light sends, by band over daylight D65.
+    fn lamp(&self, number: usize, light: &Light) -> Option<Vec<f32>> {
+        if let Some(own) = self.scene.spectra.of_light(number) {
+            return self.lamps.get(own).cloned();
+        }
+        let luminance = luminance_of_pixel(light.emission.radiance);
+        let colour = light.emission.radiance.map(|part| part / luminance);
+        light.texture.is_none().then(|| (0..self.bands.count()).map(|band| self.bands.of_colour(band, colour)).collect())
+    }
+}
+
+/// Whether two spectra differ by rounding alone.
+fn alike(one: &[f32], other: &[f32]) -> bool {
+    let largest = one.iter().copied().fold(0.0, f32::max);
+    one.iter().zip(other).all(|(a, b)| (a - b).abs() <= 1e-4 * largest)
 }

@@ -67,7 +67,7 @@ impl LampSpectra {
 
     /// A light as it shines by its spectrum: its luminance in the spectrum's colour.
     pub(super) fn coloured(&self, number: usize, light: &Light) -> Option<Light> {
-        let lamp = self.spectra.get((*self.of_light.get(number)? as usize).checked_sub(1)?)?;
+        let lamp = self.spectra.get(self.of_light(number)?)?;
         let luminance = luminance_of_pixel(light.emission.radiance);
         let mut light = light.clone();
         light.emission.radiance = lamp.colour.map(|part| part * luminance);
@@ -126,6 +126,11 @@ impl LampSpectra {
             metals: column(&metals.at(&wavelengths)),
             ..(**without_lamps()).clone()
         }
+    }
+
+    /// The spectrum of a light of the scene, by its place among them all.
+    pub(super) fn of_light(&self, number: usize) -> Option<usize> {
+        (*self.of_light.get(number)? as usize).checked_sub(1)
     }
 
     /// How many there are.

@@ -241,15 +241,17 @@ pub fn has_other_primaries(path: &Path) -> Result<bool> {
 
 /// How a file's picture was taken, as [`write_exr`] notes it; none where nothing is noted.
 pub fn view_of_exr(path: &Path) -> Result<Option<PictureView>> {
-    let texts: HashMap<String, String> = attributes(path)?
-        .other
-        .into_iter()
-        .filter_map(|(name, value)| match value {
-            AttributeValue::Text(text) => Some((name.to_string(), text.to_string())),
-            _ => None,
-        })
-        .collect();
+    let texts = texts_of_exr(path)?;
     Ok(PictureView::from_notes(|name| texts.get(name).map(String::as_str)))
+}
+
+/// The texts of a file's header by name.
+pub(super) fn texts_of_exr(path: &Path) -> Result<HashMap<String, String>> {
+    let text = |(name, value): (Text, AttributeValue)| match value {
+        AttributeValue::Text(text) => Some((name.to_string(), text.to_string())),
+        _ => None,
+    };
+    Ok(attributes(path)?.other.into_iter().filter_map(text).collect())
 }
 
 /// The exposure that a file's colour was multiplied by, as [`write_exr`] notes it; 1 where nothing is noted.

@@ -6,6 +6,7 @@ mod exr;
 mod false_colour;
 mod picture;
 mod spectral;
+mod spectral_read;
 mod tone_map;
 
 pub use crate::scene::{Output, check_writable, is_ordinary, write_atomically, write_beside};
@@ -18,5 +19,6 @@ pub use exr::{
 pub use false_colour::{Canvas, FalseColour, FalseColourScale, MOST_STEPS};
 pub use picture::{encode_jpeg, encode_png, write_picture};
 pub use spectral::{check_spectral, write_spectral};
+pub use spectral_read::read_spectral;
 pub use tone_map::{Adaptation, DisplaySpace, Look, ToneMap, display, display_deep, display_linear, display_over_black, log_average};
 pub use tone_map::{KEY, ToneCurve, map_lanes};

@@ -6,7 +6,8 @@ use super::{
 };
 use crate::{
     error::{Error, Result},
-    spectral_picture::SpectralPicture,
+    scene::Aov,
+    spectral_picture::{SpectralLayer, SpectralPicture},
 };
 use gonio_spectrum::Bands;
 use std::{io::Write, path::Path};
@@ -48,21 +49,44 @@ pub fn write_spectral(path: &Path, found: &SpectralPicture, options: &ExrOptions
 }
 
 /// The name of a band's channel: the emissive spectrum, with a comma in its number as the layout has it.
-fn channel_name(nm: f64) -> String {
+pub(super) fn channel_name(nm: f64) -> String {
     format!("S0.{}nm", format!("{nm:.6}").replace('.', ","))
 }
 
+/// What stands before the bands' names of a pass.
+fn prefix(layer: &SpectralLayer) -> String {
+    match layer.aov {
+        Aov::Color => String::new(),
+        Aov::Illuminance => "Illuminance.".to_owned(),
+        _ => format!("{}.", layer.name),
+    }
+}
+
 fn write_exr(path: &Path, found: &SpectralPicture, options: &ExrOptions) -> Result<()> {
-    let band = |(number, values): (usize, &Vec<f32>)| (channel_name(found.bands.centre(number)), values.clone());
-    let further: Further = found.radiance.iter().enumerate().map(band).collect();
-    let notes = [
-        ("spectralLayoutVersion", "1.0".to_owned()),
-        ("emissiveUnits", "W.m^-2.sr^-1".to_owned()),
-        ("gonio:unit:S0", format!("W/(m^2 sr nm), means over {} nm", found.bands.width_nm())),
-    ];
-    let mut options = options.clone();
+    let band = |layer: &SpectralLayer, number: usize| format!("{}{}", prefix(layer), channel_name(found.bands.centre(number)));
+    let of_layer = |layer: &SpectralLayer| -> Further {
+        layer.bands.iter().enumerate().map(|(number, values)| (band(layer, number), values.clone())).collect()
+    };
+    let further: Further = found.layers.iter().flat_map(of_layer).collect();
+    let mut options = ExrOptions { exposure: found.exposure as f32, ..options.clone() };
+    let notes = [("spectralLayoutVersion", "1.0".to_owned()), ("emissiveUnits", "W.m^-2.sr^-1".to_owned())];
     options.attributes.extend(notes.map(|(key, value)| (key.to_owned(), value)));
+    for layer in &found.layers {
+        let unit = if layer.aov == Aov::Illuminance { "W/(m^2 nm)" } else { "W/(m^2 sr nm)" };
+        let text = format!("{unit}, means over {} nm", found.bands.width_nm());
+        options.attributes.push((format!("gonio:unit:{}S0", prefix(layer)), text));
+        options.attributes.extend(layer.lamp.as_ref().map(|lamp| (lamp_note(&layer.name), lamp_text(lamp))));
+    }
     write_exr_with(path, &found.image, &further, &options)
+}
+
+/// The header's entry of what the lamps of a light group's pass send.
+pub(super) fn lamp_note(name: &str) -> String {
+    format!("gonio:lamp:{name}")
+}
+
+fn lamp_text(lamp: &[f32]) -> String {
+    lamp.iter().map(|value| format!("{value:e}")).collect::<Vec<_>>().join(" ")
 }
 
 /// Radiance's form: bands from the longest wavelength to the shortest, bytes with one exponent a pixel. An even spectrum has the value of its luminance over
@@ -78,7 +102,7 @@ fn hsr(found: &SpectralPicture, file: &mut impl Write) -> std::io::Result<()> {
     for y in 0..height {
         row.clear();
         for x in 0..width {
-            pixel.iter_mut().zip(found.radiance.iter().rev()).for_each(|(value, band)| *value = scale * band[y * width + x]);
+            pixel.iter_mut().zip(found.radiance().iter().rev()).for_each(|(value, band)| *value = scale * band[y * width + x]);
             append_common_exponent(&pixel, &mut row);
         }
         file.write_all(&row)?;

@@ -204,3 +204,23 @@ fn colours_of_pictures_have_a_temperature() {
     }
     assert!([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0; 3], [-1.0, 2.0, 1.0]].into_iter().all(|colour| cct_of_colour(colour).is_none()));
 }
+
+#[test]
+fn many_spectra_have_the_figures_of_each() {
+    for name in ["LED-B3", "FL11", "A", "D65", "LED-RGB1"] {
+        let lamp = named(name).expect("a name").expect("a spectrum");
+        for step in [5.0, 10.0] {
+            let nm: Vec<f64> = (0..(400.0 / step) as usize).map(|band| 380.0 + step * (band as f64 + 0.5)).collect();
+            let power: Vec<f64> = nm.iter().map(|nm| lamp.at(*nm)).collect();
+            let many = crate::RenderingOfMany::new(&nm);
+            let one = figures(&Spectrum::new(name, &nm, &power).expect("a spectrum")).white.expect("a white light");
+            near(name, many.ra(&power).expect("Ra"), one.rendering.ra, 0.02);
+            let tm30 = one.rendition.expect("TM-30");
+            let [rf, rg] = many.rf_rg(&power).expect("Rf and Rg");
+            near(name, rf, tm30.rf, 0.02);
+            near(name, rg, tm30.rg, 0.02);
+        }
+    }
+    let many = crate::RenderingOfMany::new(&[500.0, 510.0, 520.0, 530.0, 540.0]);
+    assert!(many.ra(&[0.0; 5]).is_none() && many.rf_rg(&[1.0; 5]).is_none());
+}
