@@ -98,6 +98,44 @@ def test_a_picture_by_wavelength(run, stage, tmp_path):
     assert (tmp_path / "again.hsr").stat().st_size > 32 * 20 and "S0.390,000000nm" not in channels(tmp_path / "colour.exr")
 
 
+def test_groups_by_wavelength_are_relit(run, stage, tmp_path):
+    """A room with another lamp is the room that was rendered with it."""
+    files = {name: tmp_path / f"{name}.exr" for name in ("led", "tungsten", "relit", "again")}
+    path = stage("LED-B3")
+    path.write_text(path.read_text().replace("custom string", 'custom string gonio:lightGroup = "Ceiling"\n    custom string'))
+    render = ("-w", "32", "-p", "4", "--band", "10", "--light-groups", "--aov", "color,luminance,illuminance", "--quiet")
+    run("render", path, *render, "--by-wavelength", files["led"])
+    path.write_text(path.read_text().replace('"LED-B3"', '"A"'))
+    run("render", path, *render, "--by-wavelength", files["tungsten"])
+    found = run("relight", files["led"], "--spectrum", "Ceiling=A", "-o", files["relit"])
+    assert str(files["relit"]) in found.stdout and found.stderr == ""
+    relit, expected = channels(files["relit"]), channels(files["tungsten"])
+    for name in ("R", "G", "B", "Luminance", "S0.605,000000nm", "lightgroup:Ceiling.S0.455,000000nm", "lightgroup:Ceiling.G"):
+        np.testing.assert_allclose(relit[name], expected[name], rtol=2e-3, atol=1e-4 * expected[name].max(), err_msg=name)
+    assert not any(name.startswith("Illuminance") for name in relit)
+    # What was relit can be relit again.
+    run("relight", files["relit"], "--spectrum", "Ceiling=LED-B3", "--group", "Ceiling=2", "-o", files["again"])
+    np.testing.assert_allclose(channels(files["again"])["G"], 2 * channels(files["led"])["G"], rtol=1e-4)
+    assert "--spectrum NAME=2700K" in run("relight", files["led"], "--group", "Ceiling=1,2700", "-o", files["again"]).stderr
+    assert "expected one of Ceiling, other" in run("relight", files["led"], "--spectrum", "Kitchen=A", "-o", files["again"]).stderr
+    plain = tmp_path / "plain.exr"
+    run("render", path, "-w", "8", "-p", "1", "--light-groups", "-o", plain, "--quiet")
+    assert "--by-wavelength" in run("relight", plain, "--spectrum", "Ceiling=A", "-o", files["again"]).stderr
+
+
+def test_colour_rendering_on_surfaces(run, stage, tmp_path):
+    picture, page = tmp_path / "room.exr", tmp_path / "ra.png"
+    run("render", stage(), "-w", "32", "-p", "4", "--by-wavelength", picture, "--band", "10", "--aov", "illuminance", "--quiet")
+    for quantity in ("ra", "rf", "rg", "melanopic-edi"):
+        page.unlink(missing_ok=True)
+        found = run("falsecolor", picture, "--quantity", quantity, "-o", page)
+        assert page.stat().st_size > 500, quantity
+        assert found.stdout.split() == [str(page)], quantity
+    without = tmp_path / "without.exr"
+    run("render", stage(), "-w", "8", "-p", "1", "--by-wavelength", without, "--band", "10", "--quiet")
+    assert "--aov illuminance" in run("falsecolor", without, "--quantity", "ra", "-o", page).stderr
+
+
 def test_a_sensor_of_the_eyes_own_curves(run, stage, tmp_path):
     """A sensor whose curve is V(λ) sees luminance, whatever lamp: white balance cancels, as one channel has one scale."""
     picture, out, curves = tmp_path / "room.exr", tmp_path / "photo.exr", tmp_path / "curves.csv"
@@ -116,6 +154,24 @@ def test_a_sensor_of_the_eyes_own_curves(run, stage, tmp_path):
     run("sensor", picture, curves, "-o", raw, "--white", "none", "--quiet")
     bands = np.stack([pixels for name, pixels in sorted(original.items()) if name.startswith("S0.")], -1)
     np.testing.assert_allclose(channels(raw)["flat"], 5.0 * bands.sum(axis=-1), rtol=1e-4)
+
+
+@pytest.mark.parametrize("observer", ["cie-1931", "cie-2015", "CIE-2015-10"])
+def test_observers_of_the_cie(run, stage, tmp_path, observer):
+    """A grey wall has its lamp's chromaticity for each observer, and is white where the lamp is."""
+    picture, raw, seen = tmp_path / "room.exr", tmp_path / "raw.exr", tmp_path / "seen.exr"
+    run("render", stage("FL11"), "-w", "16", "-p", "2", "--by-wavelength", picture, "--band", "5", "--quiet")
+    run("sensor", picture, observer, "-o", raw, "--white", "none", "--quiet")
+    of = channels(raw)
+    assert set(of) == {"X", "Y", "Z"}
+    xyz = np.stack([of[name][6, 8] for name in "XYZ"])
+    expected = json.loads(run("spectrum", "FL11", "--json").stdout)["chromaticities"][observer.lower()]
+    np.testing.assert_allclose(xyz[:2] / xyz.sum(), expected, atol=5e-4)
+    run("sensor", picture, observer, "-o", seen, "--white", "FL11", "--quiet")
+    of = channels(seen)
+    assert set(of) == {"X", "Y", "Z", "R", "G", "B", "A"}
+    for name in "RBXZ":
+        np.testing.assert_allclose(of[name], of["Y"], rtol=0.02, err_msg=name)
 
 
 @pytest.mark.parametrize(

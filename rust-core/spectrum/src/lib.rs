@@ -46,6 +46,7 @@ pub use figures::{Figures, White, figures};
 pub use metal::{MetalIndex, metal, metal_sets};
 pub use mixture::Mixture;
 pub use named::{NAMES, named};
+pub use observer::CieObserver;
 pub use read::{metal::read_metal, read, response::Response};
 pub use rendering::{Rendering, TOLERANCE};
 pub use rendering_of_many::RenderingOfMany;
@@ -53,6 +54,7 @@ pub use rendition::{HueBin, Rendition};
 pub use source::Spectrum;
 pub use triples::{Triples, triples};
 pub use upsampling::{REC709_TO_REC2020, Upsampling, upsampling};
+pub use white::rec709_of_white;
 
 #[cfg(test)]
 mod tests;

@@ -60,6 +60,12 @@ pub(crate) fn colour(nm: f64) -> [f64; 3] {
     WHITE.colour.all(nm)
 }
 
+/// Linear Rec.709 of tristimulus values that are 1 each for white.
+pub fn rec709_of_white(xyz: [f64; 3]) -> [f64; 3] {
+    let white = solved([0, 1, 2].map(|column| XYZ_TO_REC709.map(|row| row[column])), [1.0; 3]);
+    turned(&XYZ_TO_REC709, std::array::from_fn(|k| white[k] * xyz[k]))
+}
+
 /// A matrix times a vector.
 pub(crate) fn turned(matrix: &[[f64; 3]; 3], vector: [f64; 3]) -> [f64; 3] {
     matrix.map(|row| row[0] * vector[0] + row[1] * vector[1] + row[2] * vector[2])

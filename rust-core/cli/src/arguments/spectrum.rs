@@ -23,13 +23,14 @@ Files:
 pub(super) const SENSOR_EXAMPLES: &str = "Examples:
   gonio render office.usda --by-wavelength office.exr --band 10
   gonio sensor office.exr camera.csv -o photo.exr
-  gonio sensor office.exr camera.csv -o raw.exr --white none";
+  gonio sensor office.exr camera.csv -o raw.exr --white none
+  gonio sensor office.exr cie-2015 -o seen.exr   the colours as the observer of 2015 sees them";
 
 #[derive(Args, Debug)]
 pub(crate) struct SensorOptions {
     /// A picture by wavelength (gonio render --by-wavelength).
     pub(crate) image: PathBuf,
-    /// The sensor's curves: lines of nm and the response of each channel, in any unit; a line of names may stand first, three columns without one are R, G and B.
+    /// The sensor's curves: lines of nm and the response of each channel, in any unit; a line of names may stand first, three columns without one are R, G and B. Or an observer of the CIE: cie-1931, cie-1964, cie-2015 (2°, by the cones), cie-2015-10; the picture has X, Y, Z and their colour.
     pub(crate) response: PathBuf,
     /// The picture to write, a channel for each curve.
     #[arg(long, short = 'o', value_name = "FILE.exr")]

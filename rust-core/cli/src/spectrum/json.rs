@@ -1,15 +1,17 @@
 //! What a spectrum says, for machines.
 
 use super::Lamp;
-use gonio_spectrum::{Figures, HueBin, OPSINS, TOLERANCE};
+use gonio_spectrum::{CieObserver, Figures, HueBin, OPSINS, TOLERANCE};
 use serde_json::{Map, Value, json};
 
 /// Everything in one object; what is undefined is null.
 pub(super) fn as_json(lamp: &Lamp) -> Value {
     let mut all = figures_json(&lamp.figures);
+    let chromaticities = CieObserver::ALL.map(|observer| (observer.name().to_owned(), json!(observer.chromaticity(&lamp.spectrum))));
     let of_data = [
         ("source", json!(lamp.asked)),
         ("name", json!(lamp.spectrum.name)),
+        ("chromaticities", Value::from_iter(chromaticities)),
         ("points", json!(lamp.spectrum.power.len())),
         ("first_nm", json!(lamp.spectrum.wavelengths_nm.first())),
         ("last_nm", json!(lamp.spectrum.wavelengths_nm.last())),

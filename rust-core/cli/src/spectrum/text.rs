@@ -2,7 +2,7 @@
 
 use super::Lamp;
 use gonio_formats::tame;
-use gonio_spectrum::{OPSINS, Rendering, Rendition, TOLERANCE, White};
+use gonio_spectrum::{CieObserver, OPSINS, Rendering, Rendition, TOLERANCE, White};
 
 /// The longest name in a table.
 const LONGEST_NAME: usize = 32;
@@ -16,6 +16,9 @@ pub(super) fn as_text(lamp: &Lamp) -> Vec<String> {
         format!("{}: {} points from {first} to {last} nm, most power at {} nm", spectrum.name, spectrum.power.len(), figures.peak_nm),
         format!("chromaticity: x {x:.4}, y {y:.4} (CIE 1931); u' {u:.4}, v' {v:.4} (CIE 1976)"),
     ];
+    let [_, others @ ..] = CieObserver::ALL.map(|observer| (observer.name(), observer.chromaticity(spectrum)));
+    let others = others.map(|(name, [x, y])| format!("x {x:.4}, y {y:.4} ({name})"));
+    lines.push(format!("  by other observers: {}", others.join("; ")));
     match &figures.white {
         Some(white) => lines.extend(white_lines(white)),
         None => lines.push("CCT, Duv, Ra, Rf, Rg: undefined".to_owned()),

@@ -224,3 +224,26 @@ fn many_spectra_have_the_figures_of_each() {
     let many = crate::RenderingOfMany::new(&[500.0, 510.0, 520.0, 530.0, 540.0]);
     assert!(many.ra(&[0.0; 5]).is_none() && many.rf_rg(&[1.0; 5]).is_none());
 }
+
+/// x and y by observer, with colour-science 0.4.7's tables of them.
+const OBSERVED: [(&str, [[f64; 2]; 4]); 4] = [
+    ("A", [[0.44757, 0.40744], [0.45117, 0.40594], [0.45276, 0.4088], [0.45293, 0.4052]]),
+    ("D65", [[0.31273, 0.32902], [0.31382, 0.331], [0.31345, 0.3308], [0.31379, 0.33127]]),
+    ("FL11", [[0.38054, 0.37692], [0.38544, 0.37109], [0.38404, 0.37694], [0.38611, 0.36879]]),
+    ("LED-B3", [[0.37561, 0.37229], [0.38085, 0.36852], [0.38067, 0.37591], [0.38086, 0.3666]]),
+];
+
+#[test]
+fn observers_have_their_chromaticities() {
+    use crate::CieObserver;
+    for (name, expected) in OBSERVED {
+        let lamp = named(name).expect("a name").expect("a spectrum");
+        for (observer, expected) in CieObserver::ALL.into_iter().zip(expected) {
+            let found = observer.chromaticity(&lamp);
+            (0..2).for_each(|k| near(&format!("{name} {observer:?}"), found[k], expected[k], 2e-4));
+        }
+    }
+    assert_eq!(CieObserver::by_name("CIE-2015"), Some(CieObserver::Cie2015));
+    let white = crate::rec709_of_white([1.0; 3]);
+    white.iter().for_each(|part| near("white", *part, 1.0, 1e-12));
+}
