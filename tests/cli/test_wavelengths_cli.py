@@ -85,8 +85,8 @@ def test_a_report_has_them(run, stage, tmp_path):
 
 def test_a_picture_by_wavelength(run, stage, tmp_path):
     picture, page = tmp_path / "room.exr", tmp_path / "cct.png"
-    found = run("render", stage(), "-w", "32", "-p", "4", "--by-wavelength", picture, "--band", "20")
-    assert str(picture) in found.stdout
+    found = run("render", stage(), "-w", "32", "-p", "4", "--by-wavelength", picture, "--band", "20", "--half")
+    assert str(picture) in found.stdout and "without --half" in found.stderr
     of = channels(picture)
     assert sum(name.startswith("S0.") for name in of) == 20 and {"R", "G", "B", "A"} <= set(of)
     assert [path.name for path in tmp_path.glob("*.exr")] == ["room.exr"]

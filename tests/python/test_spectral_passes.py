@@ -15,7 +15,7 @@ def place(*position):
     return matrix
 
 
-def room(warm=WARM, cool=COOL, passes=("color", "illuminance", "luminance", "lightgroup:Warm", "lightgroup:Cool"), samples=16, factor=1.0):
+def room(warm=WARM, cool=COOL, passes=("color", "illuminance", "luminance", "lightgroup:Warm", "lightgroup:Cool"), samples=16):
     """A coloured corner of two squares under a lamp from each side."""
     made = gonio.Scene()
     square = made.add_mesh(SQUARE, CORNERS)
@@ -23,7 +23,7 @@ def room(warm=WARM, cool=COOL, passes=("color", "illuminance", "luminance", "lig
     upright = np.array([[1, 0, 0, 0], [0, 0, 1, 1], [0, -1, 0, 1], [0, 0, 0, 1]], float)
     made.add_instance(square, [made.add_material(base_color=(0.2, 0.4, 0.7), specular_weight=0.0)], transform=upright)
     made.add_camera([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 3], [0, 0, 0, 1]], fov=20.0)
-    made.add_light("sphere", (2e4 * factor,) * 3, radius=0.05, spectrum=warm, group="Warm", transform=place(-0.5, 0, 1.5))
+    made.add_light("sphere", (2e4,) * 3, radius=0.05, spectrum=warm, group="Warm", transform=place(-0.5, 0, 1.5))
     made.add_light("sphere", (1e4,) * 3, radius=0.05, spectrum=cool, group="Cool", transform=place(0.5, 0, 1.5))
     made.set(width=16, height=12, samples=samples, spectral=True, passes=list(passes), caustics="off")
     return made
@@ -51,8 +51,8 @@ def test_groups_make_the_colour_together():
 @pytest.mark.parametrize("band", [5.0, 20.0])
 def test_other_lamps_are_as_if_they_had_been_there(band):
     """The same random numbers: a relit picture is that of the other lamps but for what bands make of the walls' spectra."""
-    relit = gonio.spectral_picture(room(), band=band).relit([("Warm", 0.5, lamp("LED-V1")), ("Cool", 1.0, lamp("D50"))])
-    there = gonio.spectral_picture(room("LED-V1", "D50", factor=0.5), band=band)
+    relit = gonio.spectral_picture(room(), band=band).relit([("Warm", 1.0, lamp("LED-V1")), ("Cool", 1.0, lamp("D50"))])
+    there = gonio.spectral_picture(room("LED-V1", "D50"), band=band)
     for name in ("color", "lightgroup:Warm", "lightgroup:Cool"):
         expected = radiance(there, name)
         np.testing.assert_allclose(radiance(relit, name), expected, rtol=1e-3, atol=1e-5 * expected.max(), err_msg=name)
@@ -71,14 +71,17 @@ def test_back_and_forth_is_nothing():
 
 
 def test_where_a_lamp_had_no_light_is_told():
-    narrow = (np.array([380.0, 440, 441, 460, 480, 500, 520, 540, 559, 560, 780]), np.array([0.0, 0, 1, 1, 1, 1, 1, 1, 1, 0, 0]))
-    picture = gonio.spectral_picture(room(warm=narrow), band=20.0)
+    nm = np.arange(380.0, 781.0, 10.0)
+    narrow = (nm, np.where((nm > 440) & (nm < 560), 1.0, 0.0))
+    picture = gonio.spectral_picture(room(warm=narrow, samples=128), band=20.0)
     relit = picture.relit([("Warm", 1.0, lamp("E"))])
     assert len(relit.diagnostics) == 1 and "'Warm' had no light in 14 bands within 380 to 780 nm" in relit.diagnostics[0][1]
-    there = radiance(gonio.spectral_picture(room(warm="E"), band=20.0), "lightgroup:Warm")
+    there = radiance(gonio.spectral_picture(room(warm="E", samples=128), band=20.0), "lightgroup:Warm")
     nm = np.asarray(picture.wavelengths_nm)
     seen = (nm > 440) & (nm < 560)
-    np.testing.assert_allclose(radiance(relit, "lightgroup:Warm")[..., seen], there[..., seen], rtol=2e-3)
+    # Lights are chosen by their colours too, so that the noise is another.
+    means = [picture[..., seen].mean(axis=(0, 1)) for picture in (radiance(relit, "lightgroup:Warm"), there)]
+    np.testing.assert_allclose(*means, rtol=0.02)
     assert (radiance(relit, "lightgroup:Warm") > 0).any(axis=(0, 1)).all()
 
 
