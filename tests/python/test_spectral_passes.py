@@ -64,7 +64,7 @@ def test_other_lamps_are_as_if_they_had_been_there(band):
 def test_back_and_forth_is_nothing():
     picture = gonio.spectral_picture(room(), band=10.0)
     there = picture.relit([("Warm", 2.0, lamp("A"))])
-    back = there.relit([("Warm", 0.5, lamp(WARM))])
+    back = there.relit([("Warm", 0.5, gonio.illuminant(WARM))])
     np.testing.assert_allclose(radiance(back), radiance(picture), rtol=1e-5)
     factors = picture.relit([("Cool", 0.0, None)])
     np.testing.assert_array_equal(radiance(factors), radiance(picture, "lightgroup:Warm"))

@@ -13,10 +13,33 @@ use gonio::{
     scene::Aov,
     spectral_picture::{self as engine, LightFigure, NewLamp},
 };
+use gonio_formats::FormatError;
 use gonio_simd::Execution;
 use gonio_spectrum::{Spectrum, bands_of};
 use pyo3::prelude::*;
 use std::path::PathBuf;
+
+/// A light group's name, the factor of its lumens, its lamps' spectrum.
+type NewGroup = (String, f64, Option<GivenSpectrum>);
+
+/// A spectrum in Python: wavelengths in nm and power.
+#[derive(FromPyObject)]
+enum GivenSpectrum {
+    Read {
+        #[pyo3(item)]
+        wavelengths_nm: Vec<f64>,
+        #[pyo3(item)]
+        power: Vec<f64>,
+    },
+    Pair(Vec<f64>, Vec<f64>),
+}
+
+impl GivenSpectrum {
+    fn of(&self, name: &str) -> Result<Spectrum, FormatError> {
+        let (Self::Read { wavelengths_nm, power } | Self::Pair(wavelengths_nm, power)) = self;
+        Spectrum::new(name, wavelengths_nm, power)
+    }
+}
 
 /// A picture by wavelength.
 #[pyclass(frozen, module = "gonio")]
@@ -68,14 +91,14 @@ impl SpectralPicture {
         let values = py.detach(|| self.found.light_figure(figure)).map_err(exception)?;
         Ok(Pass::new(self.found.image.size(), 1, &["Y"], values))
     }
-    /// With other lamps in its light groups: a list of (name, factor, spectrum), where a spectrum is (wavelengths in nm, power) or None to keep what
-    /// it was, and factors are of lumens. Diagnostics say what is approximate.
-    fn relit(&self, py: Python<'_>, groups: Vec<(String, f64, Option<(Vec<f64>, Vec<f64>)>)>) -> PyResult<Self> {
-        let lamp = |(group, factor, spectrum): (String, f64, Option<(Vec<f64>, Vec<f64>)>)| {
+    /// With other lamps in its light groups: a list of (name, factor, spectrum), where a spectrum is what `illuminant` and `read_spectrum` give, (wavelengths
+    /// in nm, power), or None to keep what it was, and factors are of lumens. Diagnostics say what is approximate.
+    fn relit(&self, py: Python<'_>, groups: Vec<NewGroup>) -> PyResult<Self> {
+        let lamp = |(group, factor, spectrum): NewGroup| {
             if !(factor.is_finite() && factor >= 0.0) {
                 return Err(setting("factor", format!("{factor} was found, expected a number from 0 on")));
             }
-            let spectrum = spectrum.map(|(nm, power)| Spectrum::new(&group, &nm, &power)).transpose();
+            let spectrum = spectrum.map(|spectrum| spectrum.of(&group)).transpose();
             let spectrum = spectrum.map_err(|error| setting("spectrum", format!("of {group}: {error}")))?;
             Ok(NewLamp { group, factor, spectrum })
         };
