@@ -8,7 +8,7 @@ from contextlib import contextmanager
 import bpy
 
 from .. import report
-from ..session import FinalSession, ViewportSession
+from ..session import FinalSession, ViewportSession, handover
 from ..session.passes import register_passes
 
 log = logging.getLogger("gonio")
@@ -62,14 +62,20 @@ class GonioRenderEngine(bpy.types.RenderEngine):
     def update(self, data=None, depsgraph=None) -> None:
         self.has_failed = False
         with self._reporting():
-            self.final = self.final or FinalSession()
             self.update_stats("", "Exporting the scene")
+            if (handed := self._awaited()) is not None:
+                handed.session.sync(depsgraph, engine=self)
+                return
+            self.final = self.final or FinalSession()
             self.final.sync(depsgraph, preview=self.is_preview, engine=self)
 
     def render(self, depsgraph) -> None:
         if self.has_failed:
             return
         with self._reporting():
+            if (handed := self._awaited()) is not None:
+                handed.take(self, depsgraph)
+                return
             self.final = self.final or FinalSession()
             told = self.final.render(self, depsgraph, preview=self.is_preview)
             if self.is_preview:
@@ -100,6 +106,10 @@ class GonioRenderEngine(bpy.types.RenderEngine):
                 self.drawing.draw(self, context, depsgraph.scene, session.picture)
             self.update_stats("", session.status)
             self._show_report(context, len(session.report.counted))
+
+    def _awaited(self) -> handover.Handover | None:
+        """Who waits for the scene of this render in place of its picture."""
+        return None if self.is_preview else handover.awaited()
 
     def _show_report(self, context, count: int) -> None:
         if count != self.told:

@@ -64,6 +64,14 @@ class FinalSession:
                 raise
         return layer.report
 
+    def hand_over(self, engine, depsgraph) -> tuple[gonio.Scene, report.Report]:
+        """The scene of a view layer as its picture has it, seen by the scene's camera, and what is to be told; the session forgets it."""
+        layer = self._layers.pop(depsgraph.view_layer.name)
+        self._settings(depsgraph, layer, expected_frame(engine), [passes.COMBINED], False, Eye(), begun_with(engine))
+        if begun_with(engine).use_multiview:
+            layer.report.tell("views by wavelength", "Scene", depsgraph.scene.name)
+        return layer.exporter.scene, layer.report
+
     def render(self, engine, depsgraph, *, preview: bool = False) -> report.Report:
         """Renders one view layer; returns what is to be told about it."""
         name = depsgraph.view_layer.name
