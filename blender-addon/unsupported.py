@@ -92,6 +92,7 @@ SCENES = {
         "colours come in and go out by the configuration's matrix, light is reckoned in linear Rec.709; saturated colours under coloured light "
         "differ from Cycles",
     ),
+    "views by wavelength": _quietly("*Render by Wavelength* of stereoscopic scenes", "the view of the scene's camera alone"),
     "quick denoiser": _untold(
         "The viewport's quick denoiser in false colour and in final renders", "the picture as it is; *Denoise* of *Sampling*"
     ),

@@ -15,6 +15,7 @@ from .illumination_map import GONIO_OT_illumination_map
 from .measure_grids import GONIO_OT_measure_grids
 from .measure_luminaire import GONIO_OT_measure_luminaire
 from .point_meter import GONIO_OT_point_meter
+from .render_by_wavelength import GONIO_OT_render_by_wavelength
 from .report import GONIO_OT_report_copy, GONIO_OT_report_jump
 from .standard_view import GONIO_OT_use_standard_view
 
@@ -30,6 +31,7 @@ CLASSES = (
     GONIO_OT_measure_grids,
     GONIO_OT_measure_luminaire,
     GONIO_OT_point_meter,
+    GONIO_OT_render_by_wavelength,
     GONIO_OT_report_jump,
     GONIO_OT_report_copy,
 )

@@ -19,6 +19,7 @@ from . import (
     photometry,
     polar_picture,
     presets,
+    render_menu,
     report,
     sampling,
     simplify,
@@ -61,11 +62,13 @@ def register() -> None:
     polar_picture.register()
     for panel in PANELS:
         bpy.utils.register_class(panel)
+    render_menu.register()
     report.register()
 
 
 def unregister() -> None:
     report.unregister()
+    render_menu.unregister()
     for panel in reversed(PANELS):
         bpy.utils.unregister_class(panel)
     polar_picture.unregister()

@@ -70,6 +70,7 @@ class GONIO_RENDER_PT_sampling_advanced(RenderPanel, Panel):
 
     def draw_settings(self, layout, scene):
         layout.prop(scene.gonio, "spectral")
+        layout.operator("gonio.render_by_wavelength", icon="COLOR")
         row = layout.row(align=True)
         row.prop(scene.gonio, "seed")
         row.prop(scene.gonio, "use_animated_seed", text="", icon="TIME")

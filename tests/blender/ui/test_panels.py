@@ -175,6 +175,7 @@ def test_operators_say_what_the_scene_lacks():
         ("bake_illuminance", "No mesh is active in Object Mode"),
         ("expose_for_daylight", "The world's Daylight is off"),
         ("point_meter", "The mouse is not over a 3D viewport"),
+        ("render_by_wavelength", "The scene has no camera"),
     ):
         assert said(name) == (False, [words])
     scene.world.gonio.use_daylight, scene.gonio.tone_map = True, "PHOTOGRAPHIC"
