@@ -14,6 +14,12 @@ REACH = 400
 RADIANCE_BAND = 20
 
 
+def passes_by_wavelength(view_layer) -> list[str]:
+    """Passes of a view layer that are known by wavelength, beside the colour."""
+    groups = [f"lightgroup:{group.name}" for group in view_layer.lightgroups]
+    return ["color", *(["illuminance"] if view_layer.gonio.use_pass_illuminance else []), *groups]
+
+
 @dataclass(frozen=True)
 class Wanted:
     """A file, and the width of its bands in nm."""

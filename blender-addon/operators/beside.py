@@ -12,8 +12,6 @@ class Beside:
     """What such an operator has beside its own `_arrived(context, found)`, which publishes what the thread found."""
 
     _worker = None
-    # Whether its thread hears at once that it is to end.
-    _is_waited_for = True
 
     def _go(self, context, work, *arguments, **options):
         """Has `work` done, which is told last of its arguments how to ask whether it is to end."""
@@ -48,11 +46,11 @@ class Beside:
         return end
 
     def cancel(self, context):
-        """Ends the work, as a rule with its thread; Blender calls it when it ends the operator itself, and when a dialog is left."""
+        """Ends the work and waits for its thread; Blender calls it when it ends the operator itself, and when a dialog is left."""
         if self._worker is None:
             return
         self._stop.set()
-        self._worker.shutdown(wait=self._is_waited_for)
+        self._worker.shutdown()
         context.window_manager.event_timer_remove(self._timer)
         if context.workspace is not None:
             context.workspace.status_text_set(None)

@@ -9,7 +9,7 @@ import gonio
 from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 
 from .. import report
-from ..by_wavelength import Wanted
+from ..by_wavelength import Wanted, passes_by_wavelength
 from ..properties.scene import MOST_SAMPLES
 from ..session import handover
 from ..session.status import clock
@@ -56,8 +56,6 @@ class GONIO_OT_render_by_wavelength(Beside, bpy.types.Operator):
 
     # Whether the user was asked for the file; then it is rendered beside Blender.
     _asked = False
-    # Scenes are compiled without a look at ESC, which may take a while: the thread ends by itself after it.
-    _is_waited_for = False
 
     @classmethod
     def poll(cls, context):
@@ -80,6 +78,7 @@ class GONIO_OT_render_by_wavelength(Beside, bpy.types.Operator):
             self._wanted = Wanted.checked(Path(bpy.path.abspath(self.filepath)), int(self.band))
             handed = handover.exported(context.scene, context.view_layer)
             self._said = handed.report
+            handed.scene.set(passes=passes_by_wavelength(context.view_layer))
             if self.samples > 0:
                 handed.scene.set(samples=self.samples)
             if self._asked and not bpy.app.background:

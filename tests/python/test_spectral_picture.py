@@ -138,6 +138,37 @@ def test_it_can_be_cancelled():
         gonio.spectral_picture(lit((0.5,) * 3, "A", size=256, samples=4096), cancelled=lambda: True)
 
 
+def test_compiling_can_be_cancelled():
+    """Of a mesh of two million triangles nothing is told before its tree stands."""
+    import time
+
+    side = 1000
+    x, y = np.meshgrid(np.linspace(-1, 1, side, dtype=np.float32), np.linspace(-1, 1, side, dtype=np.float32))
+    points = np.stack([x.ravel(), y.ravel(), np.sin(9 * x * y).ravel()], axis=1)
+    first = (np.arange(side - 1)[:, None] * side + np.arange(side - 1)).ravel()
+    faces = np.concatenate([np.stack([first, first + 1, first + side], 1), np.stack([first + 1, first + side + 1, first + side], 1)]).astype(np.int32)
+    made = lit((0.5,) * 3, "A")
+    made.add_instance(made.add_mesh(points, faces), [made.add_material()])
+    asked = []
+
+    def cancelled():
+        asked.append(time.process_time())
+        return True
+
+    with pytest.raises(gonio.Cancelled):
+        gonio.spectral_picture(made, cancelled=cancelled)
+    # The whole of it takes seconds.
+    assert time.process_time() - asked[0] < 1.0
+
+
+def test_an_exception_of_the_question_is_raised():
+    def cancelled():
+        raise ValueError("not now")
+
+    with pytest.raises(ValueError, match="not now"):
+        gonio.spectral_picture(lit((0.5,) * 3, "A", size=256, samples=4096), cancelled=cancelled)
+
+
 def test_glass_bends_every_wavelength_of_a_band():
     """A thin bright strip through a prism: a band of 20 nm shows what its four bands of 5 nm do, no single line."""
     index, apex = 1.6, math.radians(60)

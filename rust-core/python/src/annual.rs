@@ -146,7 +146,7 @@ pub(crate) fn annual(
         blinds,
         closed: closed.as_ref(),
     };
-    let ask = |py: Python<'_>, _: &gonio::render::Progress| unless(py, cancelled.as_ref());
+    let ask = |py: Python<'_>, _: Option<&gonio::render::Progress>| unless(py, cancelled.as_ref());
     watched(py, ask, |stop, progress| {
         let (grids, _) = AnnualGrid::all(&open)?;
         let mut watch = Watch { previous: None, cancel: stop, progress };

@@ -43,7 +43,7 @@ pub(crate) fn dim<'py>(
     (description.settings.samples, description.settings.max_bounces) = (samples.max(1), max_bounces.unwrap_or(MOST_BOUNCES));
     let numbers = |of: Option<BTreeMap<String, f64>>| of.into_iter().flatten().collect::<Vec<_>>();
     let (watts, fixed, near) = (numbers(watts), numbers(fixed), wished(near)?);
-    let ask = |py: Python<'_>, _: &gonio::render::Progress| unless(py, cancelled.as_ref());
+    let ask = |py: Python<'_>, _: Option<&gonio::render::Progress>| unless(py, cancelled.as_ref());
     let found = watched(py, ask, |stop, progress| {
         let mut watch = Watch { previous: None, cancel: stop, progress };
         let (targets, watts, fixed) = (&targets[..], &watts[..], &fixed[..]);

@@ -118,6 +118,6 @@ fn screen_of(numbers: &[f64]) -> PyResult<Screen> {
 }
 
 fn run(py: Python<'_>, scene: &Description, options: &Options, told: Option<&Py<PyAny>>) -> PyResult<gonio::goniometer::Reading> {
-    let ask = |py: Python<'_>, now: &Progress| tell_rays(py, told, now);
+    let ask = |py: Python<'_>, now: Option<&Progress>| tell_rays(py, told, now);
     watched(py, ask, |stop, progress| measure(scene, options, Execution::detect(), stop, progress))
 }

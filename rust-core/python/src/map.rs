@@ -293,7 +293,7 @@ pub(crate) fn illumination_map(
         MapOptions { prims: prims.unwrap_or_default(), uv, texel, error, paths, time_limit_s: time_limit, colours, memory, max_bounces };
     let description = Arc::new(scene.scene.clone());
     let before = previous.and_then(Render::compiled);
-    let ask = |py: Python<'_>, _: &u64| unless(py, cancelled.as_ref());
+    let ask = |py: Python<'_>, _: Option<&u64>| unless(py, cancelled.as_ref());
     let (maps, compiled) = watched(py, ask, |stop, progress| {
         let compiled = Arc::new(compile(&description, before.as_deref(), stop)?);
         let mut tell = |paths| progress(&paths);

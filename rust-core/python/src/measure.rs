@@ -270,7 +270,7 @@ pub(crate) fn measure_scene(
     let mut description: Description = scene.scene.clone();
     (description.settings.samples, description.settings.max_bounces) = (samples.max(1), max_bounces.unwrap_or(measure::MOST_BOUNCES));
     let before = previous.and_then(Render::compiled);
-    let ask = |py: Python<'_>, _: &gonio::render::Progress| unless(py, cancelled.as_ref());
+    let ask = |py: Python<'_>, _: Option<&gonio::render::Progress>| unless(py, cancelled.as_ref());
     let found = watched(py, ask, |stop, progress| {
         let mut watch = Watch { previous: before.as_deref(), cancel: stop, progress };
         measure::measure(&description, Execution::detect(), &mut watch)

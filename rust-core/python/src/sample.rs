@@ -194,6 +194,6 @@ fn read(py: Python<'_>, source: &Bound<'_, PyAny>, prim: Option<String>, frame: 
 }
 
 fn run(py: Python<'_>, scene: &Description, options: &Options, told: Option<&Py<PyAny>>) -> PyResult<gonio::sample_bsdf::SampleReading> {
-    let ask = |py: Python<'_>, now: &Progress| tell_rays(py, told, now);
+    let ask = |py: Python<'_>, now: Option<&Progress>| tell_rays(py, told, now);
     watched(py, ask, |stop, progress| measure(scene, options, Execution::detect(), stop, progress))
 }

@@ -129,7 +129,7 @@ impl SpectralPicture {
 pub(crate) fn spectral_picture(py: Python<'_>, scene: &Scene, band: f64, cancelled: Option<Py<PyAny>>) -> PyResult<SpectralPicture> {
     let bands = bands_of(band).ok_or_else(|| setting("band", format!("{band} nm was found, expected 5, 10 or 20")))?;
     let description = scene.scene.clone();
-    let ask = |py: Python<'_>, _: &gonio::render::Progress| unless(py, cancelled.as_ref());
+    let ask = |py: Python<'_>, _: Option<&gonio::render::Progress>| unless(py, cancelled.as_ref());
     let (found, diagnostics) = watched(py, ask, |stop, progress| {
         let mut watch = Watch { previous: None, cancel: stop, progress };
         engine::spectral_picture(&description, bands, Execution::detect(), &mut watch)

@@ -52,7 +52,7 @@ pub(crate) fn sunlight<'py>(
     };
     let meters: Vec<Meter> = points.into_iter().enumerate().map(meter).collect();
     let description: Description = scene.scene.clone();
-    let ask = |py: Python<'_>, _: &gonio::render::Progress| unless(py, cancelled.as_ref());
+    let ask = |py: Python<'_>, _: Option<&gonio::render::Progress>| unless(py, cancelled.as_ref());
     let (found, diagnostics) = watched(py, ask, |stop, progress| {
         let mut watch = Watch { previous: None, cancel: stop, progress };
         follow(&description, &meters, &task, Execution::detect(), &mut watch)

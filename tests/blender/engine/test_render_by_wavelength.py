@@ -96,6 +96,30 @@ def test_a_white_floor_has_the_lamp_s_spectrum(tmp_path: Path):
 
 
 @pytest.mark.blender
+def test_light_groups_and_illuminance_are_by_wavelength(tmp_path: Path):
+    """The lamp is the only light of its group; its lux are those of the illuminance."""
+    import math
+
+    import bpy
+    import numpy
+    import scenes
+
+    lamp_floor("LED-B3")
+    layer = bpy.context.view_layer
+    layer.lightgroups.add(name="Desk")
+    bpy.data.objects["Lamp"].lightgroup = "Desk"
+    layer.gonio.use_pass_illuminance = True
+    path = tmp_path / "groups.exr"
+    assert bpy.ops.gonio.render_by_wavelength(filepath=str(path), band="20") == {"FINISHED"}
+    channels = scenes.read(path)
+    names = sorted(name for name in channels if name.startswith("S0."))
+    for name in names:
+        numpy.testing.assert_allclose(channels[f"lightgroup:Desk.{name}"], channels[name], rtol=1e-5)
+    numpy.testing.assert_allclose(channels["Illuminance"], 1000.0 / (4.0 * math.pi), rtol=6e-3)
+    assert len([name for name in channels if name.startswith("Illuminance.S0.")]) == 20
+
+
+@pytest.mark.blender
 def test_radiance_s_files_have_bands_of_20_nm(tmp_path: Path):
     import importlib
 
