@@ -15,8 +15,10 @@ RADIANCE_BAND = 20
 
 
 def passes_by_wavelength(view_layer) -> list[str]:
-    """Passes of a view layer that are known by wavelength, beside the colour."""
+    """Passes of a view layer that are known by wavelength: the colour, illuminance, and light groups with all other light."""
     groups = [f"lightgroup:{group.name}" for group in view_layer.lightgroups]
+    if groups:
+        groups.append("lightgroup:other")
     return ["color", *(["illuminance"] if view_layer.gonio.use_pass_illuminance else []), *groups]
 
 
