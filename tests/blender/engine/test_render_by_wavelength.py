@@ -115,6 +115,7 @@ def test_light_groups_and_illuminance_are_by_wavelength(tmp_path: Path):
     names = sorted(name for name in channels if name.startswith("S0."))
     for name in names:
         numpy.testing.assert_allclose(channels[f"lightgroup:Desk.{name}"], channels[name], rtol=1e-5)
+        assert not channels[f"lightgroup:other.{name}"].any()
     numpy.testing.assert_allclose(channels["Illuminance"], 1000.0 / (4.0 * math.pi), rtol=8e-3)
     assert len([name for name in channels if name.startswith("Illuminance.S0.")]) == 40
 
