@@ -139,6 +139,51 @@ fn no_circle_has_more_than_four_files() {
     }
 }
 
+/// The most lines of a function.
+const LONGEST_FUNCTION: usize = 73;
+
+/// A line's indentation and the name of the function that begins there, in code as the formatter leaves it.
+fn function_of(line: &str) -> Option<(&str, &str)> {
+    let code = line.trim_start();
+    let indentation = &line[..line.len() - code.len()];
+    let (before, after) = code.strip_prefix("fn ").map_or_else(|| code.split_once(" fn "), |after| Some(("", after)))?;
+    let is_modifier =
+        |word: &str| matches!(word, "pub" | "const" | "unsafe" | "extern" | "\"C\"") || word.starts_with("pub(") || word.ends_with(')');
+    before.split_whitespace().all(is_modifier).then(|| (indentation, after.split(['(', '<']).next().unwrap_or_default()))
+}
+
+/// Functions of a source that are too long. What macros make of a pattern has no end of its own and is left out.
+fn long_functions(text: &str) -> Vec<String> {
+    let lines: Vec<&str> = text.lines().collect();
+    let length = |(start, line): (usize, &&str)| {
+        let (indentation, name) = function_of(line)?;
+        let first = lines[start..].iter().position(|line| line.ends_with(['{', ';', '}']))?;
+        if !lines[start + first].ends_with('{') || name.contains('$') {
+            return None;
+        }
+        let end = format!("{indentation}}}");
+        let count = lines[start..].iter().position(|line| *line == end)? + 1;
+        (count > LONGEST_FUNCTION).then(|| format!("{name} ({count} lines)"))
+    };
+    lines.iter().enumerate().filter_map(length).collect()
+}
+
+#[test]
+fn no_function_is_longer_than_a_page() {
+    let body =
+        |count: usize| format!("    pub(super) const fn long(\n        a: u32,\n    ) -> u32 {{\n{}    }}\n", "        a;\n".repeat(count));
+    assert_eq!(long_functions(&body(69)), Vec::<String>::new());
+    assert_eq!(long_functions(&body(70)), ["long (74 lines)"]);
+    let mut files = Vec::new();
+    ["rust-core", "usd", "tests"].iter().for_each(|folder| sources(&root().join(folder), "rs", &mut files));
+    let mut found = Vec::new();
+    for file in files {
+        let text = fs::read_to_string(&file).expect("a readable source");
+        found.extend(long_functions(&text).into_iter().map(|function| format!("{}: {function}", file.display())));
+    }
+    assert!(found.is_empty(), "too long: {}", found.join(", "));
+}
+
 #[test]
 fn colour_becomes_light_by_doors_alone() {
     let found = |needle: &str| -> Vec<String> {

@@ -84,16 +84,7 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
     let arguments = translated.words;
     let parsed = match Arguments::try_parse_from(&arguments) {
         Ok(parsed) => parsed,
-        Err(error) => {
-            // Help and version are errors of status 0 to clap. Who closed a pipe wants no more.
-            return match error.print() {
-                Err(lost) if lost.kind() != ErrorKind::BrokenPipe && !error.use_stderr() => {
-                    say(&format!("error: standard output: {lost}"));
-                    1
-                }
-                _ => error.exit_code(),
-            };
-        }
+        Err(error) => return not_parsed(&error),
     };
     INTERRUPTED.store(false, Ordering::Relaxed);
     if parsed.command.hears_signals() {
@@ -152,5 +143,16 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
             say(&format!("error: {error}"));
             1
         }
+    }
+}
+
+/// Says why a command line is not followed; gives the process's status. Help and version are errors of status 0 to clap. Who closed a pipe wants no more.
+fn not_parsed(error: &clap::Error) -> i32 {
+    match error.print() {
+        Err(lost) if lost.kind() != ErrorKind::BrokenPipe && !error.use_stderr() => {
+            say(&format!("error: standard output: {lost}"));
+            1
+        }
+        _ => error.exit_code(),
     }
 }

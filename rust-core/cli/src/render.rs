@@ -345,12 +345,7 @@ impl Job<'_> {
         settings.caustics = options.caustics.into();
         settings.guiding = options.guiding.into();
         settings.light_samples = options.light_samples;
-        settings.filter = match options.filter {
-            FilterArgument::Box => Filter::Box,
-            FilterArgument::Tent => Filter::Tent,
-            FilterArgument::Gaussian => Filter::Gaussian,
-            FilterArgument::BlackmanHarris => Filter::BlackmanHarris,
-        };
+        settings.filter = filter(options.filter);
         settings.filter_width = options.filter_width;
         options.work.apply(settings);
         options.textures.apply(settings);
@@ -621,4 +616,14 @@ fn crop_of(texts: &[String], resolution: [u32; 2]) -> Result<Crop> {
         bounds[i] = (number * scale).round().max(0.0) as u32;
     }
     Ok(Crop { min: [bounds[0], bounds[1]], max: [bounds[2], bounds[3]] })
+}
+
+/// The filter of an argument.
+fn filter(argument: FilterArgument) -> Filter {
+    match argument {
+        FilterArgument::Box => Filter::Box,
+        FilterArgument::Tent => Filter::Tent,
+        FilterArgument::Gaussian => Filter::Gaussian,
+        FilterArgument::BlackmanHarris => Filter::BlackmanHarris,
+    }
 }

@@ -35,50 +35,7 @@ impl LightTable {
         // Lanes left out follow the first one left in, so that they do not spoil a light common to all others.
         let index = mask.select(light, l.u(light.to_array()[mask.bits().trailing_zeros() as usize]));
         let light = self.reader(l, index);
-        let mut density = (l.f(0.0), [l.f(0.0); 2]);
-        self.density_kind(
-            LightKind::Rectangle,
-            &light,
-            &mut density,
-            #[inline(always)]
-            || Rectangle::density(l, &light, from, wi, hit),
-        );
-        self.density_kind(
-            LightKind::Disk,
-            &light,
-            &mut density,
-            #[inline(always)]
-            || Disk::density(l, &light, from, wi, hit),
-        );
-        self.density_kind(
-            LightKind::Sphere,
-            &light,
-            &mut density,
-            #[inline(always)]
-            || Sphere::density(l, &light, from, wi, hit),
-        );
-        self.density_kind(
-            LightKind::Cylinder,
-            &light,
-            &mut density,
-            #[inline(always)]
-            || Cylinder::density(l, &light, from, wi, hit),
-        );
-        self.density_kind(
-            LightKind::Triangle,
-            &light,
-            &mut density,
-            #[inline(always)]
-            || Triangle::density(l, &light, from, wi, hit),
-        );
-        self.density_kind(
-            LightKind::FacingDisk,
-            &light,
-            &mut density,
-            #[inline(always)]
-            || FacingDisk::density(l, &light, from, wi, hit),
-        );
-        let (pdf, uv) = density;
+        let (pdf, uv) = self.densities(l, &light, from, [wi, hit]);
         let valid = mask
             & pdf.gt(0.0)
             & pdf.is_finite()
@@ -94,6 +51,55 @@ impl LightTable {
         let sent = self.filtered(l, index, hit, -wi, (hit - from).length(), sent);
         let sent = self.seen_outside(l, index, sent);
         (sent.keep_if(valid), pdf.keep_if(valid))
+    }
+
+    /// The pdf per solid angle, before lights are chosen, with which a hit point is sampled on its own light, and where on it the point lies.
+    #[inline(always)]
+    fn densities<L: Lanes>(&self, l: L, light: &Reader<'_, L>, from: Vec3<L>, [wi, hit]: [Vec3<L>; 2]) -> (F<L>, [F<L>; 2]) {
+        let mut density = (l.f(0.0), [l.f(0.0); 2]);
+        self.density_kind(
+            LightKind::Rectangle,
+            light,
+            &mut density,
+            #[inline(always)]
+            || Rectangle::density(l, light, from, wi, hit),
+        );
+        self.density_kind(
+            LightKind::Disk,
+            light,
+            &mut density,
+            #[inline(always)]
+            || Disk::density(l, light, from, wi, hit),
+        );
+        self.density_kind(
+            LightKind::Sphere,
+            light,
+            &mut density,
+            #[inline(always)]
+            || Sphere::density(l, light, from, wi, hit),
+        );
+        self.density_kind(
+            LightKind::Cylinder,
+            light,
+            &mut density,
+            #[inline(always)]
+            || Cylinder::density(l, light, from, wi, hit),
+        );
+        self.density_kind(
+            LightKind::Triangle,
+            light,
+            &mut density,
+            #[inline(always)]
+            || Triangle::density(l, light, from, wi, hit),
+        );
+        self.density_kind(
+            LightKind::FacingDisk,
+            light,
+            &mut density,
+            #[inline(always)]
+            || FacingDisk::density(l, light, from, wi, hit),
+        );
+        density
     }
 
     /// Runs one kind's density where some lane has it.

@@ -73,6 +73,15 @@ pub struct LightTable {
     pub(crate) linked: Option<Arc<LinkedLights>>,
 }
 
+/// Lets light sampling choose domes by the part of them that it samples.
+fn weaken_domes(infinite: &[InfiniteLight], rows: &mut [f32]) {
+    for dome in infinite.iter().filter(|infinite| infinite.kind == LightKind::Dome) {
+        let even = if dome.alone { 1.0 } else { EVEN_SAMPLED_PART };
+        let part = dome.distribution.as_ref().map_or(even, |distribution| distribution.sampled_part);
+        rows[dome.light as usize * ROW + field::STRENGTH] *= (SAMPLED_GAIN * part).min(1.0) as f32;
+    }
+}
+
 impl LightTable {
     /// Lays out the lights; a light's index is its place in `records`. Lights without extent, power or finite values stay in the table and are
     /// never selected. A texture whose values do not fit its size counts as white.
@@ -118,11 +127,7 @@ impl LightTable {
         }
         // Portals show the whole dome to light sampling.
         if portals.is_empty() {
-            for dome in infinite.iter().filter(|infinite| infinite.kind == LightKind::Dome) {
-                let even = if dome.alone { 1.0 } else { EVEN_SAMPLED_PART };
-                let part = dome.distribution.as_ref().map_or(even, |distribution| distribution.sampled_part);
-                rows[dome.light as usize * ROW + field::STRENGTH] *= (SAMPLED_GAIN * part).min(1.0) as f32;
-            }
+            weaken_domes(&infinite, &mut rows);
         }
         let sampler = if records.len() <= MOST_EXHAUSTIVE { LightSampler::Exhaustive } else { LightSampler::Tree(LightTree::new(&rows)) };
         let any_alone = records.iter().any(|record| record.sampled_alone);

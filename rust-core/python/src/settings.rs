@@ -59,22 +59,6 @@ fn change_one(s: &mut Settings, key: &str, value: &Bound<'_, PyAny>) -> PyResult
         "filter_width" => s.filter_width = within(key, value, 0.0, 16.0)? as f32,
         "clamp_direct" => s.clamp_direct = within(key, value, 0.0, f64::MAX)? as f32,
         "clamp_indirect" => s.clamp_indirect = within(key, value, 0.0, f64::MAX)? as f32,
-        "mist" => {
-            let (start, depth, falloff) = value.extract()?;
-            s.mist = Mist { start, depth, falloff };
-        }
-        "motion_blur" => s.shutter.blur = value.extract()?,
-        "shutter" => {
-            let (open, close): (f32, f32) = value.extract()?;
-            if !(0.0 <= open && open <= close && close <= 1.0) {
-                return Err(wrong(key, format!("{open} to {close} was found, expected a part of 0 to 1")));
-            }
-            s.shutter.interval = [open, close];
-        }
-        "shutter_curve" => s.shutter.curve = value.extract()?,
-        "row_exposure" => s.shutter.row_exposure = within(key, value, 0.0, 1.0)? as f32,
-        "motion_interpolation" => s.shutter.linear = named(key, value, &[(false, "decomposed"), (true, "linear")])?,
-        "film_transparent" => s.background = if value.extract()? { Background::Transparent } else { Background::Covering },
         "cryptomatte_depth" => match value.extract()? {
             ranks if (2..=MOST_MATTE_RANKS).contains(&ranks) && ranks % 2 == 0 => s.set_cryptomatte_depth(ranks),
             ranks => return Err(wrong(key, format!("{ranks} was found, expected an even number from 2 to {MOST_MATTE_RANKS}"))),
@@ -98,6 +82,30 @@ fn change_one(s: &mut Settings, key: &str, value: &Bound<'_, PyAny>) -> PyResult
             let names: Vec<String> = value.extract()?;
             s.set_passes(&names).map_err(|name| wrong(key, format!("there is no pass '{name}'")))?;
         }
+        _ => return change_shutter(s, key, value),
+    }
+    Ok(())
+}
+
+/// Sets one of what the shutter, the mist and the film do.
+fn change_shutter(s: &mut Settings, key: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
+    match key {
+        "mist" => {
+            let (start, depth, falloff) = value.extract()?;
+            s.mist = Mist { start, depth, falloff };
+        }
+        "motion_blur" => s.shutter.blur = value.extract()?,
+        "shutter" => {
+            let (open, close): (f32, f32) = value.extract()?;
+            if !(0.0 <= open && open <= close && close <= 1.0) {
+                return Err(wrong(key, format!("{open} to {close} was found, expected a part of 0 to 1")));
+            }
+            s.shutter.interval = [open, close];
+        }
+        "shutter_curve" => s.shutter.curve = value.extract()?,
+        "row_exposure" => s.shutter.row_exposure = within(key, value, 0.0, 1.0)? as f32,
+        "motion_interpolation" => s.shutter.linear = named(key, value, &[(false, "decomposed"), (true, "linear")])?,
+        "film_transparent" => s.background = if value.extract()? { Background::Transparent } else { Background::Covering },
         _ => return Err(pyo3::exceptions::PyTypeError::new_err(format!("set() got an unexpected keyword argument '{key}'"))),
     }
     Ok(())

@@ -83,8 +83,11 @@ pub(super) fn undrawn() -> impl Iterator<Item = (&'static str, Surface)> {
 
 /// One setting of every kind, for the statistical tests.
 pub(super) fn all() -> Vec<(&'static str, Surface)> {
-    let native = Switches::default();
-    let thin = Switches { thin_walled: true, ..native };
+    simple().into_iter().chain(fibres()).chain(layered()).collect()
+}
+
+/// One lobe each, but for hair.
+fn simple() -> Vec<(&'static str, Surface)> {
     vec![
         ("lambert", diffuse(0.0)),
         ("rough diffuse", diffuse(1.0)),
@@ -106,6 +109,12 @@ pub(super) fn all() -> Vec<(&'static str, Surface)> {
         ("toon, wide", single(Closure::DiffuseToon, &[(p::TOON_SIZE, &[0.8]), (p::TOON_SMOOTH, &[0.5])])),
         ("toon, sharp", single(Closure::GlossyToon, &[(p::TOON_SIZE, &[0.5])])),
         ("toon, glossy", single(Closure::GlossyToon, &[(p::TOON_SIZE, &[0.25]), (p::TOON_SMOOTH, &[0.375])])),
+    ]
+}
+
+/// Hair.
+fn fibres() -> Vec<(&'static str, Surface)> {
+    vec![
         ("fibre", single(Closure::Hair, &[])),
         ("fibre, white", single(Closure::Hair, &[(p::HAIR_ABSORPTION, &[0.0; 3])])),
         ("fibre, rough", single(Closure::Hair, &[(p::HAIR_VARIANCE, &[4.0, 1.0, 16.0]), (p::HAIR_SCALE, &[1.3, 1.0, 2.0])])),
@@ -127,6 +136,14 @@ pub(super) fn all() -> Vec<(&'static str, Surface)> {
         ),
         ("fibre reflects", single(Closure::HairReflection, &[(p::HAIR_WIDTHS, &[0.3, 0.8])])),
         ("fibre passes", single(Closure::HairTransmission, &[(p::HAIR_WIDTHS, &[0.15, 0.6]), (p::HAIR_TILT, &[0.25])])),
+    ]
+}
+
+/// Films, walks, and layers of several lobes.
+fn layered() -> Vec<(&'static str, Surface)> {
+    let native = Switches::default();
+    let thin = Switches { thin_walled: true, ..native };
+    vec![
         ("transparent", single(Closure::Transparent, &[(p::BASE_COLOR, &[0.9, 0.5, 0.2])])),
         ("film on plastic", filmed(&[(p::ROUGHNESS, &[0.5])])),
         ("film on metal", filmed(&[(p::ROUGHNESS, &[0.5]), (p::METALNESS, &[1.0])])),

@@ -90,13 +90,7 @@ impl Integrator for LightIntegrator<'_> {
         let ChunkContext { l, transport, sample: context, .. } = *chunk;
         let clear = l.gather(&queues.light_paths.starts.clear, point.core.slot);
         point.alive &= point.bounces.ne(0) | l.gather(&chunk.hits.t, point.path).ge(clear);
-        // What a light does not light stays dark where its light arrives first; what goes straight on there does not arrive.
-        let lit = if chunk.tables.links.receivers.is_empty() {
-            l.m(true)
-        } else {
-            let light = l.gather_integers(&queues.light_paths.starts.light, point.core.slot);
-            point.bounces.ne(0) | chunk.tables.lights.sees(l, point.at.receiver, light)
-        };
+        let lit = lit(chunk, point, queues);
         let index = context.index(l, point.core.slot);
         let base = context.dimension(0);
         let [u_lobe, u_opacity] = context.sampler.pair(l, index, base + dimension::LOBE);
@@ -137,10 +131,7 @@ impl Integrator for LightIntegrator<'_> {
         }
         let mut factor = kernels::flux_factor(l, &material.surface, &light, lobes, &sample, &mut room);
         if chunk.tables.lights.has_factors() {
-            let kind = sample.diffuse.select(l.u(0), sample.transmitted.select(l.u(2), l.u(1)));
-            let light = l.gather_integers(&queues.light_paths.starts.light, point.core.slot);
-            let own = chunk.tables.lights.scattered_factor(l, light, kind);
-            let own = (point.bounces.eq(0) & !sample.straight).select(own, l.f(1.0));
+            let own = lamp_factor(chunk, point, &sample, queues);
             goes = goes.and_not(own.eq(0.0));
             factor = factor * own;
         }
@@ -157,6 +148,27 @@ impl Integrator for LightIntegrator<'_> {
 
     #[inline(always)]
     fn measure<L: Lanes>(&self, _: &MeasureContext<'_, L>, _: &mut ShadowRays, _: &mut Paths, _: &mut Deposits) {}
+}
+
+/// Where a path's lamp lights what it met: what it does not light stays dark where its light arrives first. What goes straight on there does not arrive.
+#[inline(always)]
+fn lit<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, queues: &Queues) -> M<L> {
+    let l = chunk.l;
+    if chunk.tables.links.receivers.is_empty() {
+        return l.m(true);
+    }
+    let light = l.gather_integers(&queues.light_paths.starts.light, point.core.slot);
+    point.bounces.ne(0) | chunk.tables.lights.sees(l, point.at.receiver, light)
+}
+
+/// The lamp's own factor on what is scattered first of its light.
+#[inline(always)]
+fn lamp_factor<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, sample: &BsdfSample<L>, queues: &Queues) -> F<L> {
+    let l = chunk.l;
+    let kind = sample.diffuse.select(l.u(0), sample.transmitted.select(l.u(2), l.u(1)));
+    let light = l.gather_integers(&queues.light_paths.starts.light, point.core.slot);
+    let own = chunk.tables.lights.scattered_factor(l, light, kind);
+    (point.bounces.eq(0) & !sample.straight).select(own, l.f(1.0))
 }
 
 /// Where the camera sees nothing of what the path has met.
