@@ -4,6 +4,7 @@ import gonio
 import numpy as np
 import pytest
 from small_scenes import FLOOR, QUAD, above, at, finished
+from test_media import box
 
 DISK = 200
 
@@ -35,6 +36,18 @@ def disk(scene, height, radius=1.0, centre=0.0, **visibility):
 def passes(scene):
     film = finished(scene)
     return [np.asarray(film[name]) for name in ("color", "alpha", "luminance")]
+
+
+@pytest.mark.parametrize("integrator", ["path", "direct"])
+def test_fog_before_a_catcher_covers_by_what_it_takes(integrator):
+    """4 m of fog before a catcher that nothing shades: 1 - exp(-0.2 * 4) of the rays scatter there."""
+    scene = caught(samples=1024, fov=0.1, integrator=integrator)
+    scene.add_light("distant", (900.0,) * 3, transform=[[1, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]], visible=False)
+    box(scene, (-1.0, 1.0, -1.0), (1.0, 5.0, 1.0), scattering=0.2)
+    color, alpha, _ = passes(scene)
+    error = alpha.std() / alpha.size**0.5
+    assert error < 0.003 and abs(alpha.mean() + np.expm1(-0.8)) < 4 * error, (alpha.mean(), error)
+    assert np.isfinite(color).all() and color[..., :3].mean() > 0.0
 
 
 @pytest.mark.parametrize("transparent", [True, False])

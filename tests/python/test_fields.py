@@ -115,6 +115,16 @@ def test_even_emission_behind_smoke_that_takes_it():
     within(found.mean(), error, 2.0 * -math.expm1(-0.8 * 2.0) / 0.8)
 
 
+@pytest.mark.parametrize("heat", [False, True])
+def test_emission_in_haze_that_scatters(heat):
+    """What is scattered on its way is lost here, by one factor of e and not by two."""
+    scene = looking((1.0, 1.0, 9.0), (1.0, 1.0, 0.0))
+    box(scene, (-1.0, -1.0, 0.0), (3.0, 3.0, 2.0), absorption=0.1, scattering=0.4, emission=0.0 if heat else 2.0)
+    scene.add_volume(np.ones((2, 2, 2), "f4"), scattering=0.0, absorption=0.3, emission=2.0 if heat else 0.0)
+    found, error = seen(scene, 8192, max_bounces=0)
+    within(found.mean(), error, 2.0 * -math.expm1(-0.8 * 2.0) / 0.8)
+
+
 def test_smoke_keeps_the_flux_of_its_lamp():
     scene = gonio.Scene()
     scene.add_light("point", transform=[[1, 0, 0, 9.3], [0, 1, 0, 4.2], [0, 0, 1, 5.1], [0, 0, 0, 1]])

@@ -40,6 +40,18 @@ def within(found, error, expected, relative=0.005):
     assert abs(found - expected) < 4.0 * error + 1e-4 * expected, (found, error, expected)
 
 
+def test_haze_without_end_covers_once():
+    """Coverage of rays that leave the scene is told where they leave it, and not where they scatter as well."""
+    for transparent in (True, False):
+        scene = looking((0.0, 0.0, 0.0), (0.0, 0.0, -1.0))
+        scene.add_light("dome", (1.0,) * 3)
+        scene.put_atmosphere(medium(scattering=0.1))
+        scene.set(samples=16, film_transparent=transparent, passes=["color", "alpha"])
+        film = finished(scene)
+        np.testing.assert_allclose(np.asarray(film["alpha"]), 1.0, atol=1e-5)
+        np.testing.assert_allclose(np.asarray(film["color"])[..., 3], 1.0, atol=1e-5)
+
+
 # Radiance of a half-space that scatters evenly, under even light of 1: 1 - sqrt(1 - a) H(mu), with Chandrasekhar's H (Radiative Transfer, 1950),
 # by albedo and cosine.
 HALF_SPACE = {

@@ -28,7 +28,7 @@ use std::{ops::Range, time::Instant};
 pub(crate) const MOST_DEPTH: u32 = 256;
 const _: () = assert!(MOST_DEPTH < 1 << (32 - flag::BOUNCE_SHIFT));
 
-/// Finds what all paths hit, adds the light of lights among it, and forks at shadow catchers.
+/// Finds what all paths hit, and adds the light of lights among it.
 pub(crate) fn intersect(tracer: &Tracer<'_>, sample: &SampleContext<'_>, ws: &mut Workspace) {
     let depth = sample.depth;
     let Tracer { tables, transport, .. } = tracer;
@@ -45,12 +45,12 @@ pub(crate) fn intersect(tracer: &Tracer<'_>, sample: &SampleContext<'_>, ws: &mu
     }
     let escaped = nearest.escaped.len();
     statistics.count_lanes(depth, LaneStage::Escaped, escaped.next_multiple_of(transport.execution.lanes()), escaped);
-    catcher::fork(tables, paths, &mut nearest.hits);
 }
 
-/// Looks up the materials of what was hit.
+/// Forks at shadow catchers, and looks up the materials of what was hit. What media scatter before a catcher belongs to the pixel and to neither half.
 pub(crate) fn find_materials(tracer: &Tracer<'_>, ws: &mut Workspace) {
     let Tracer { tables, transport, .. } = tracer;
+    catcher::fork(tables, &mut ws.paths, &mut ws.nearest.hits);
     dispatch!(transport.execution, l => list_materials(l, tables, &ws.nearest.hits, &mut ws.materials.material_of));
 }
 

@@ -47,6 +47,12 @@ fn passes<L: Lanes>(way: &Way<L>, distance: F<L>) -> F<L> {
     way.scatters_evenly.select(way.channels().dot(way.transmittance(distance)), one)
 }
 
+/// What even media leave of light after so many metres, over the probability that flights come so far: what is met there is met by those alone.
+#[inline(always)]
+pub(super) fn left_where_flights_pass<L: Lanes>(way: &Way<L>, distance: F<L>) -> Spectrum<L> {
+    way.transmittance(distance) * passes(way, distance).max(f32::MIN_POSITIVE).recip()
+}
+
 /// Follows ways through media that vary as far as their flights; gives the flights that they become, and lets ways scatter as their places do. `shines`
 /// takes what is sent along them.
 #[inline(always)]
@@ -64,8 +70,8 @@ pub(super) fn track<L: Lanes>(
     let found = track.go([way.from, way.from + end], chosen, Some((way.core.throughput, first)), seed, shines);
     let scattered = chosen & found.scatters;
     let distance = (found.distance - way.from).max(0.0);
-    let left = way.transmittance(distance) * passes(way, distance).max(f32::MIN_POSITIVE).recip();
-    let factor = scattered.select(found.weight * left, chosen.select(even.factor * found.weight, even.factor));
+    let factor =
+        scattered.select(found.weight * left_where_flights_pass(way, distance), chosen.select(even.factor * found.weight, even.factor));
     let densities = track.densities(found.distance);
     let phase = PhaseMix::at(l, way.core.media, &context.tables.materials.media, densities);
     way.phase = way.phase.or(phase, scattered);

@@ -43,8 +43,8 @@ pub(super) fn flags<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>) -> U<L>
 #[inline(always)]
 pub(super) fn add_seen<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>, scattered: M<L>, deposits: &mut Deposits) {
     let (core, transport) = (&way.core, context.transport);
-    // The pdf of camera rays is their share of the sample.
-    add(&mut deposits.sums.alpha, core.slot, way.pdf, scattered & (core.flags & flag::CAMERA).ne(0));
+    // The pdf of camera rays is their share of the sample. Of those that met nothing, found light has told by how much they cover.
+    add(&mut deposits.sums.alpha, core.slot, way.pdf, scattered & way.met & (core.flags & flag::CAMERA).ne(0));
     if !transport.passes.guides || transport.path_filter == PathFilter::ExceptSpecular {
         return;
     }

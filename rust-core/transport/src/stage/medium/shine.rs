@@ -1,6 +1,7 @@
 //! Light that media send along the ways of paths.
 
 use super::context::MediumContext;
+use super::flight::left_where_flights_pass;
 use super::way::Way;
 use crate::accumulate::deposit::{Contribution, Deposits, Source, code_of_found};
 use crate::accumulate::expression_sums::with_state;
@@ -26,7 +27,7 @@ pub(super) fn add<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>, chosen: M
     }
 }
 
-/// What a metre of all media sends at a place of ways through some that vary, dimmed by the even ones before it.
+/// What a metre of all media sends at a place of ways through some that vary, dimmed by the even ones before it, where a flight through these comes there.
 #[inline(always)]
 pub(super) fn sent<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>, track: &Track<'_, L>, place: F<L>) -> Spectrum<L> {
     let l = place.lanes();
@@ -35,7 +36,7 @@ pub(super) fn sent<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>, track: &
     for row in way.core.media.rows().into_iter().flatten() {
         emission += media.emission(l, row).keep_if(media.field(l, row).eq(0));
     }
-    emission * way.transmittance((place - way.from).max(0.0))
+    emission * left_where_flights_pass(way, (place - way.from).max(0.0))
 }
 
 /// Adds light that comes along ways.

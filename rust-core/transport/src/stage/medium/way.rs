@@ -12,6 +12,9 @@ use crate::words::flag;
 use gonio_accel::{Hits, NONE};
 use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
 
+/// The least albedo that distances are drawn by.
+const LEAST_ALBEDO: f32 = 0.1;
+
 /// Where some paths go, and through what.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Way<L: Lanes> {
@@ -32,10 +35,12 @@ pub(super) struct Way<L: Lanes> {
     pub(super) alive: M<L>,
     pub(super) scatters: M<L>,
     pub(super) scatters_evenly: M<L>,
+    /// Those that end at a surface.
+    pub(super) met: M<L>,
 }
 
 impl<L: Lanes> Way<L> {
-    /// Those of a register of paths; `None` where all go through the open or through solids alone.
+    /// Those of a register of paths; `None` where all go through the open or through solids that do not scatter.
     #[inline(always)]
     pub(super) fn load(l: L, table: &MediumTable, paths: &Paths, hits: &Hits, at: usize) -> Option<Self> {
         let media = paths.media.load(l, at);
@@ -66,6 +71,7 @@ impl<L: Lanes> Way<L> {
             alive: present,
             scatters: scatters_evenly | (lit & media.varies(table)),
             scatters_evenly,
+            met,
         })
     }
 
@@ -100,9 +106,10 @@ impl<L: Lanes> Way<L> {
         self.scatters & bounces.lt(limits.max_bounces + 1) & limits.allow(self.core.counts, bounces)
     }
 
-    /// Probabilities of the components of light to draw distances by: their share in what scattering would leave.
+    /// Probabilities of the components of light to draw distances by: their share in what scattering would leave. Those that are absorbed alone have some
+    /// as well: they come through where the others hardly do.
     #[inline(always)]
     pub(super) fn channels(&self) -> Spectrum<L> {
-        (self.core.throughput.abs() * (self.phase.scattering / self.extinction.max(f32::MIN_POSITIVE))).shares()
+        (self.core.throughput.abs() * (self.phase.scattering / self.extinction.max(f32::MIN_POSITIVE)).max(LEAST_ALBEDO)).shares()
     }
 }
