@@ -76,7 +76,7 @@ impl<L: Lanes> MediaSet<L> {
         }
     }
 
-    /// Where any medium has a name here; solids have none.
+    /// Where any medium has a name here; of solids those alone that scatter have one.
     #[inline(always)]
     pub(crate) fn is_filled(self) -> M<L> {
         (self.names[0] | self.names[1]).ne(0)
@@ -95,7 +95,7 @@ impl<L: Lanes> MediaSet<L> {
         varies
     }
 
-    /// With one medium more.
+    /// With one medium more (Cycles' `volume_stack_enter_exit`).
     #[inline(always)]
     pub fn entered(self, row: u32, chosen: M<L>) -> Self {
         self.exchanged(0, row, chosen)
@@ -169,7 +169,7 @@ impl<L: Lanes> MediaSet<L> {
         sum
     }
 
-    /// Optical depth of so many metres of even media. No solid reaches infinitely far: where one seems to, its mesh is open.
+    /// Optical depth of so many metres of even media. No solid that only absorbs reaches infinitely far: where one seems to, its mesh is open.
     #[inline(always)]
     pub fn optical_depth(self, media: &MediumTable, distance: F<L>) -> Spectrum<L> {
         let solid = self.solid.keep_if(distance.lt(FAR));

@@ -1,4 +1,4 @@
-//! Tracking: paths through media that vary, by collisions as frequent as the bound of the density in each cell.
+//! Tracking (delta tracking with null collisions, ratio tracking; pbrt's `SampleT_maj`): paths through media that vary, by collisions as frequent as the bound of the density in each cell.
 //!
 //! Collisions are weighed (Kutz and others, Spectral and Decomposition Tracking for Rendering Heterogeneous Volumes, 2017): absorption is a weight, never
 //! an end. Even media beside them are not tracked: they have closed forms.

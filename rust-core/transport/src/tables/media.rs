@@ -1,4 +1,4 @@
-//! The media of a scene, a row each: what fills closed meshes, or all of space, evenly or by a field.
+//! The media of a scene, a row each: what fills closed meshes, or all of space, evenly (homogeneous) or by a field (heterogeneous).
 
 use crate::tables::fields::{FieldTable, ROW};
 use gonio_bsdf::phase::{Phase, PhaseTable};

@@ -1,4 +1,4 @@
-//! Light that media send along the ways of paths.
+//! Light that media send along the ways of paths (pbrt's `Le`).
 
 use super::context::MediumContext;
 use super::flight::left_where_flights_pass;
