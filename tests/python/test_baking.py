@@ -5,6 +5,7 @@ import pytest
 from small_scenes import QUAD
 
 gonio = pytest.importorskip("gonio")
+medium = pytest.importorskip("gonio.medium").medium
 
 # A square of 2 m by 2 m at the height 0, its second triangle at the corners 0, 2, 3.
 SQUARE = np.array([[-1, 0, 1], [1, 0, 1], [1, 0, -1], [-1, 0, -1]], "f4")
@@ -45,6 +46,18 @@ def test_steps_spread_samples_over_a_pixel():
     along = np.linspace(-1, 1, 4001)
     expected = (200.0 / (4.0 + 2.0 * along**2) ** 1.5).mean()
     assert np.asarray(baking.film()["illuminance"]).item() == pytest.approx(expected, rel=0.01)
+
+
+def test_haze_does_not_dim_what_is_baked():
+    """What the surface sends there, with and without haze that absorbs all around."""
+    scene = gonio.Scene()
+    scene.add_material("shining", base_color=(0, 0, 0), specular_weight=0, emission_color=(1.0, 2.0, 3.0))
+    scene.add_instance(scene.add_mesh(SQUARE, QUAD), [0], name="square")
+    scene.put_atmosphere(medium(absorption=0.5, scattering=0.2))
+    scene.set(samples=16, passes=["color"])
+    baking = gonio.Render.bake(scene, instance=0, **places())
+    baking.wait()
+    np.testing.assert_allclose(np.asarray(baking.film()["color"])[0, :2, :3], [[1.0, 2.0, 3.0]] * 2, rtol=1e-5)
 
 
 def test_what_does_not_fit_is_told(tmp_path):

@@ -7,6 +7,7 @@ use crate::media::set::MediaSet;
 use crate::stage::find::covered::{BEFORE, BEHIND, covered_lanes};
 use crate::stage::start::generate::TileArea;
 use crate::state::nearest::NearestHits;
+use crate::state::passed::PassedLanes;
 use crate::state::path_core::PathCore;
 use crate::state::paths::{PathLanes, Paths};
 use crate::state::queue::measure_points::{MeasureLanes, MeasurePoints};
@@ -222,7 +223,10 @@ fn append<L: Lanes>(l: L, tables: &Tables, table: &PlaceTable, place: &PlaceLane
     u.append(inside, &mut started.hits.u, count);
     v.append(inside, &mut started.hits.v, count);
     l.f(DISTANCE).append(inside, &mut started.hits.t, count);
-    started.paths.append(&PathLanes::start(ray, core), inside);
+    // Only the places count: the way to them from above is passed already, so that no haze dims them.
+    let passed = PassedLanes { t: l.f(DISTANCE), instance: l.u(NONE), primitive: l.u(NONE), barycentric: [l.f(0.0); 2] };
+    let passed = media.is_filled().any().then_some(passed);
+    started.paths.append(&PathLanes::start(ray, core).having_passed(passed), inside);
 }
 
 /// Unit vectors from places to where they are seen from.
