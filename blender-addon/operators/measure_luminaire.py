@@ -12,6 +12,7 @@ from mathutils import Matrix
 
 from .. import goniophotometer, measuring, report
 from .beside import Beside
+from .named_file import end_name
 from .polling import can_run, is_engine
 
 # What the engine, its files and Blender raise.
@@ -153,11 +154,7 @@ class GONIO_OT_measure_luminaire(Beside, bpy.types.Operator):
 
     def check(self, context):
         """Files that were named without an ending become EULUMDAT ones."""
-        path = Path(self.filepath)
-        if not path.name or path.suffix:
-            return False
-        self.filepath = str(path.with_suffix(".ldt"))
-        return True
+        return end_name(self, ".ldt")
 
     def draw(self, context):
         layout = self.layout

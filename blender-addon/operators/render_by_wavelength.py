@@ -14,6 +14,7 @@ from ..properties.scene import MOST_SAMPLES
 from ..session import handover
 from ..session.status import clock
 from .beside import Beside
+from .named_file import end_name
 from .polling import can_run, is_engine
 
 # What the engine, its files and Blender raise.
@@ -99,11 +100,7 @@ class GONIO_OT_render_by_wavelength(Beside, bpy.types.Operator):
 
     def check(self, context):
         """Files that were named without an ending become OpenEXR ones."""
-        path = Path(self.filepath)
-        if not path.name or path.suffix:
-            return False
-        self.filepath = str(path.with_suffix(".exr"))
-        return True
+        return end_name(self, ".exr")
 
     def draw(self, context):
         layout = self.layout

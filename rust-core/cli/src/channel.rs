@@ -4,9 +4,9 @@ use super::{file, radiance, wavelengths::derived};
 use gonio::{
     Error, Result,
     colour::luminance_of_pixel,
-    film::{Frame, Image, Layer, PictureView},
+    film::{Image, Layer, PictureView},
     output::{Channels, has_other_primaries, read_exr, view_of_exr, white_luminance_of_exr},
-    scene::{Aov, Crop},
+    scene::Aov,
 };
 use std::path::Path;
 
@@ -31,18 +31,7 @@ pub(super) fn picture_of(values: Vec<f32>, size: [usize; 2]) -> Image {
 
 /// A picture without layers.
 pub(super) fn empty_picture(size: [usize; 2]) -> Image {
-    let resolution = size.map(|side| side as u32);
-    Image {
-        resolution,
-        window: Crop { min: [0; 2], max: resolution },
-        frame: Frame::default(),
-        backdrop: Default::default(),
-        layers: Vec::new(),
-        samples: 1,
-        mean_samples: 1.0,
-        manifests: Default::default(),
-        deep: None,
-    }
+    Image { samples: 1, mean_samples: 1.0, ..Image::empty(size) }
 }
 
 /// Red, green and blue among a file's channels, also under the names that Blender gives them; `wanted` says who asks.
@@ -61,7 +50,7 @@ impl Picture {
     pub(super) fn read(path: &Path, quantity: &str) -> Result<Self> {
         let (mut channels, size, view) = channels_of(path)?;
         if channels.iter().all(|(name, _)| name != quantity)
-            && let Some(values) = derived(path, &channels, quantity)?
+            && let Some(values) = derived(path, (&channels, size), quantity)?
         {
             channels.push((quantity.to_owned(), values));
         }

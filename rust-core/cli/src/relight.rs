@@ -9,10 +9,10 @@ use super::{
 use gonio::{
     Error, Result,
     colour::luminance_of_pixel,
-    film::{Frame, Image, Layer},
+    film::{Image, Layer},
     light::blackbody_rgb,
-    output::{Channels, ExrOptions, exposure_of_exr, read_exr, read_spectral, view_of_exr, write_exr, write_spectral},
-    scene::{Aov, Crop, LIGHT_GROUP},
+    output::{Channels, ExrOptions, exposure_of_exr, read_exr, spectral_of_exr, view_of_exr, write_exr, write_spectral},
+    scene::{Aov, LIGHT_GROUP},
     spectral_picture::NewLamp,
 };
 use std::path::Path;
@@ -27,7 +27,7 @@ pub(super) fn relight(options: &RelightOptions) -> Result<i32> {
     let asked = options.group.iter().map(|text| parse(text)).collect::<Result<Vec<_>>>()?;
     let (channels, size) = read_exr(&options.image)?;
     if channels.iter().any(|(name, _)| name.starts_with(LIGHT_GROUP) && name.contains(".S0.")) {
-        return by_wavelength(options);
+        return by_wavelength(options, &channels, size);
     }
     if let Some(asked) = options.spectrum.first() {
         let problem = format!("'{asked}' wants groups by wavelength, which gonio render --by-wavelength FILE.exr --light-groups writes");
@@ -49,9 +49,9 @@ pub(super) fn relight(options: &RelightOptions) -> Result<i32> {
 }
 
 /// Relights a picture by wavelength.
-fn by_wavelength(options: &RelightOptions) -> Result<i32> {
+fn by_wavelength(options: &RelightOptions, channels: &Channels, size: [usize; 2]) -> Result<i32> {
     let lamps = new_lamps(options)?;
-    let (found, notes) = read_spectral(&options.image)?.relit(&lamps)?;
+    let (found, notes) = spectral_of_exr(&options.image, channels, size)?.relit(&lamps)?;
     notes.iter().for_each(|note| say(&format!("note: {note}")));
     write_or_keep(&options.output, |path| write_spectral(path, &found, &ExrOptions::default()))?;
     print_path(&options.output);
@@ -164,18 +164,7 @@ fn relit(channels: &Channels, [width, height]: [usize; 2], exposure: f32, names:
         layers.push(Layer { aov: Aov::Luminance, name: "luminance".into(), values, channels: 1 });
     }
     layers.insert(0, Layer { aov: Aov::Color, name: "color".into(), values: colour, channels: 4 });
-    let resolution = [width as u32, height as u32];
-    Image {
-        resolution,
-        window: Crop { min: [0, 0], max: resolution },
-        frame: Frame::default(),
-        backdrop: Default::default(),
-        layers,
-        samples: 0,
-        mean_samples: 0.0,
-        manifests: Default::default(),
-        deep: None,
-    }
+    Image { layers, ..Image::empty([width, height]) }
 }
 
 #[cfg(test)]

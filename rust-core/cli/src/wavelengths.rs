@@ -3,7 +3,7 @@
 use super::{channel::colour_of, messages::say};
 use gonio::{
     Error, Result,
-    output::{Channels, has_other_primaries, read_spectral},
+    output::{Channels, has_other_primaries, spectral_of_exr},
     spectral_picture::LightFigure,
 };
 use gonio_spectrum::{TOLERANCE, cct_of_colour, melanopic_daylight};
@@ -56,9 +56,9 @@ impl<'a> Wavelengths<'a> {
 ///
 /// # Errors
 /// The file has nothing of which it could be told.
-pub(super) fn derived(path: &Path, channels: &Channels, quantity: &str) -> Result<Option<Vec<f32>>> {
+pub(super) fn derived(path: &Path, (channels, size): (&Channels, [usize; 2]), quantity: &str) -> Result<Option<Vec<f32>>> {
     if let Some(figure) = LightFigure::by_name(quantity) {
-        return on_surfaces(path, figure).map(Some);
+        return on_surfaces(path, (channels, size), figure).map(Some);
     }
     let figure: fn((f64, f64)) -> f64 = match quantity.to_ascii_lowercase().as_str() {
         "cct" => |(kelvin, _)| kelvin,
@@ -76,8 +76,8 @@ pub(super) fn derived(path: &Path, channels: &Channels, quantity: &str) -> Resul
 }
 
 /// A figure of the light on what the picture shows.
-fn on_surfaces(path: &Path, figure: LightFigure) -> Result<Vec<f32>> {
-    let values = read_spectral(path)?.light_figure(figure)?;
+fn on_surfaces(path: &Path, (channels, size): (&Channels, [usize; 2]), figure: LightFigure) -> Result<Vec<f32>> {
+    let values = spectral_of_exr(path, channels, size)?.light_figure(figure)?;
     let without = values.iter().filter(|value| value.is_nan()).count() as f64 / values.len().max(1) as f64;
     if without > 0.0 {
         let range = if figure == LightFigure::Ra {

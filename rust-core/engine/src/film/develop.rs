@@ -69,6 +69,22 @@ pub struct Image {
 }
 
 impl Image {
+    /// A picture without layers, of which nothing is known but its width and height.
+    pub fn empty(size: [usize; 2]) -> Self {
+        let resolution = size.map(|side| side as u32);
+        Self {
+            resolution,
+            window: Crop { min: [0; 2], max: resolution },
+            frame: Frame::default(),
+            backdrop: Backdrop::default(),
+            layers: Vec::new(),
+            samples: 0,
+            mean_samples: 0.0,
+            manifests: Arc::default(),
+            deep: None,
+        }
+    }
+
     /// Width and height of the window.
     pub fn size(&self) -> [usize; 2] {
         [0, 1].map(|axis| (self.window.max[axis] - self.window.min[axis]) as usize)

@@ -181,16 +181,20 @@ fn unit(aov: Aov, gamut: Option<Gamut>) -> Option<&'static str> {
     }
 }
 
-fn channels_of(layer: &Layer, half: bool) -> Vec<AnyChannel<FlatSamples>> {
-    let names = channel_names(layer.aov);
-    let single = names.len() == 1;
-    let full_name = |channel: &str| match layer.aov {
+/// The name of a pass's channel in files.
+pub(super) fn full_name(layer: &Layer, channel: &str) -> String {
+    let single = channel_names(layer.aov).len() == 1;
+    match layer.aov {
         Aov::Color => channel.to_owned(),
         aov if single && aov != Aov::Depth => name(layer).to_owned(),
         _ => format!("{}.{channel}", name(layer)),
-    };
+    }
+}
+
+fn channels_of(layer: &Layer, half: bool) -> Vec<AnyChannel<FlatSamples>> {
+    let names = channel_names(layer.aov);
     let columns = columns(&layer.values, layer.channels);
-    let channel = |(name, values): (&&str, Vec<f32>)| AnyChannel::new(Text::from(full_name(name).as_str()), samples(values, half));
+    let channel = |(name, values): (&&str, Vec<f32>)| AnyChannel::new(Text::from(full_name(layer, name).as_str()), samples(values, half));
     names.iter().zip(columns).map(channel).collect()
 }
 

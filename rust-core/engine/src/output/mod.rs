@@ -19,6 +19,6 @@ pub use exr::{
 pub use false_colour::{Canvas, FalseColour, FalseColourScale, MOST_STEPS};
 pub use picture::{encode_jpeg, encode_png, write_picture};
 pub use spectral::{check_spectral, write_spectral};
-pub use spectral_read::read_spectral;
+pub use spectral_read::spectral_of_exr;
 pub use tone_map::{Adaptation, DisplaySpace, Look, ToneMap, display, display_deep, display_linear, display_over_black, log_average};
 pub use tone_map::{KEY, ToneCurve, map_lanes};

@@ -1,35 +1,37 @@
 //! Reading back pictures by wavelength that were written here.
 
 use super::{
-    exr::{Channels, exposure_of_exr, read_exr, texts_of_exr, view_of_exr},
+    exr::{Channels, exposure_of_exr, full_name, texts_of_exr, view_of_exr},
     spectral::{channel_name, lamp_note},
 };
 use crate::{
     error::{Error, Result},
     film::{Frame, Image, Layer, channel_names},
-    scene::{Aov, Crop, LIGHT_GROUP},
+    scene::{Aov, LIGHT_GROUP},
     spectral_picture::{SpectralLayer, SpectralPicture},
 };
 use gonio_spectrum::{Bands, bands_of};
 use std::{collections::HashMap, path::Path};
 
-/// Reads an OpenEXR file of [`super::write_spectral`]: the colour, light groups and illuminance, each by wavelength and as it looks.
+/// The picture in the channels and the header of an OpenEXR file of [`super::write_spectral`], whose channels have been read ([`super::read_exr`]): the colour,
+/// light groups and illuminance, each by wavelength and as it looks.
 ///
 /// # Errors
 /// What the file is instead: no picture by wavelength, bands of other widths.
-pub fn read_spectral(path: &Path) -> Result<SpectralPicture> {
+pub fn spectral_of_exr(path: &Path, channels: &Channels, size: [usize; 2]) -> Result<SpectralPicture> {
     let wrong = |problem: String| Error::Format { path: path.to_owned(), line: None, problem };
-    let (channels, size) = read_exr(path)?;
     let texts = texts_of_exr(path)?;
-    let bands = bands_in(&channels).ok_or_else(|| {
+    let bands = bands_in(channels).ok_or_else(|| {
         wrong("no picture by wavelength as gonio render --by-wavelength writes it: bands of 5, 10 or 20 nm from 380 to 780 nm".to_owned())
     })?;
     let exposure = exposure_of_exr(path)?;
-    let mut of_name: HashMap<String, Vec<f32>> = channels.into_iter().collect();
-    let mut image = empty(size, Frame { view: view_of_exr(path)?, ..Frame::default() });
+    let of_name: OfName<'_> = channels.iter().map(|(name, values)| (name.as_str(), values.as_slice())).collect();
+    let mut image = Image::empty(size);
+    image.frame = Frame { view: view_of_exr(path)?, ..Frame::default() };
     let mut layers = Vec::new();
     for (aov, name, prefix) in passes(&of_name) {
-        let found = (0..bands.count()).map(|band| of_name.remove(&format!("{prefix}{}", channel_name(bands.centre(band)))));
+        let found = (0..bands.count())
+            .map(|band| of_name.get(format!("{prefix}{}", channel_name(bands.centre(band))).as_str()).map(|values| values.to_vec()));
         let values = found.collect::<Option<Vec<_>>>().ok_or_else(|| wrong(format!("{name} lacks some of the bands")))?;
         let lamp = texts.get(&lamp_note(&name)).and_then(|text| lamp_of(text, bands));
         image.layers.push(flat(aov, &name, &of_name, size));
@@ -41,6 +43,9 @@ pub fn read_spectral(path: &Path) -> Result<SpectralPicture> {
     Ok(SpectralPicture { image, bands, exposure: f64::from(exposure), layers })
 }
 
+/// Values of channels by their names.
+type OfName<'a> = HashMap<&'a str, &'a [f32]>;
+
 /// The bands of a file.
 fn bands_in(channels: &Channels) -> Option<&'static Bands> {
     let count = channels.iter().filter(|(name, _)| name.starts_with("S0.")).count();
@@ -51,7 +56,7 @@ fn bands_in(channels: &Channels) -> Option<&'static Bands> {
 }
 
 /// The passes by wavelength of some channels, the colour first: what they are, their names, and what stands before those of their bands.
-fn passes(channels: &HashMap<String, Vec<f32>>) -> Vec<(Aov, String, String)> {
+fn passes(channels: &OfName<'_>) -> Vec<(Aov, String, String)> {
     let mut found = vec![(Aov::Color, Aov::Color.name().to_owned(), String::new())];
     let mut prefixes: Vec<&str> = channels.keys().filter_map(|name| Some(name.rsplit_once(".S0.")?.0)).collect();
     prefixes.sort_unstable();
@@ -65,38 +70,17 @@ fn passes(channels: &HashMap<String, Vec<f32>>) -> Vec<(Aov, String, String)> {
 }
 
 /// A pass as it looks; black where the file has nothing of it.
-fn flat(aov: Aov, name: &str, channels: &HashMap<String, Vec<f32>>, [width, height]: [usize; 2]) -> Layer {
+fn flat(aov: Aov, name: &str, channels: &OfName<'_>, [width, height]: [usize; 2]) -> Layer {
     let names = channel_names(aov);
-    let mut values = vec![0.0; names.len() * width * height];
+    let mut layer = Layer { aov, name: name.to_owned(), values: vec![0.0; names.len() * width * height], channels: names.len() };
     for (k, channel) in names.iter().enumerate() {
-        let full = match aov {
-            Aov::Color => (*channel).to_owned(),
-            Aov::Luminance => "Luminance".to_owned(),
-            Aov::Illuminance => "Illuminance".to_owned(),
-            _ => format!("{name}.{channel}"),
-        };
-        let Some(found) = channels.get(&full) else { continue };
-        values.chunks_exact_mut(names.len()).zip(found).for_each(|(pixel, value)| pixel[k] = *value);
+        let Some(found) = channels.get(full_name(&layer, channel).as_str()) else { continue };
+        layer.values.chunks_exact_mut(names.len()).zip(*found).for_each(|(pixel, value)| pixel[k] = *value);
     }
-    Layer { aov, name: name.to_owned(), values, channels: names.len() }
+    layer
 }
 
 fn lamp_of(text: &str, bands: &Bands) -> Option<Vec<f32>> {
     let values = text.split_whitespace().map(|value| value.parse().ok().filter(|value: &f32| value.is_finite() && *value >= 0.0));
     values.collect::<Option<Vec<f32>>>().filter(|values| values.len() == bands.count())
-}
-
-fn empty(size: [usize; 2], frame: Frame) -> Image {
-    let resolution = size.map(|side| side as u32);
-    Image {
-        resolution,
-        window: Crop { min: [0; 2], max: resolution },
-        frame,
-        backdrop: Default::default(),
-        layers: Vec::new(),
-        samples: 0,
-        mean_samples: 0.0,
-        manifests: Default::default(),
-        deep: None,
-    }
 }
