@@ -252,6 +252,20 @@ fn what_paths_carry_is_written_out_at_one_place() {
 }
 
 #[test]
+fn few_files_name_a_medium() {
+    let mut named = Vec::new();
+    for needle in ["media::set", "media::track", "media::field", "media::shadow", "tables::media", "MediumContext"] {
+        let mut lines = lines_with("rust-core/transport/src", needle);
+        let home = ["/media/", "/stage/medium/", "/tables/media.rs", "//"];
+        lines.retain(|line| !home.iter().any(|known| line.contains(known)));
+        named.extend(lines.iter().filter_map(|line| Some(line.split_once(".rs")?.0.to_owned())));
+    }
+    named.sort_unstable();
+    named.dedup();
+    assert!(named.len() <= 9, "what lies between surfaces is asked of paths, vertices and stages: {named:#?}");
+}
+
+#[test]
 fn no_build_is_tied_to_one_machine() {
     let config = fs::read_to_string(root().join(".cargo/config.toml")).expect("the build's configuration");
     assert!(!config.lines().any(|line| !line.starts_with('#') && line.contains("native")));

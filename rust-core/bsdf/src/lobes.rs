@@ -19,7 +19,7 @@ use super::diffuse::DiffuseLobe;
 pub(crate) use super::normals::Normal;
 use super::normals::Tilts;
 use super::portal::Portal;
-use super::subsurface::Medium;
+use super::subsurface::WalkMedium;
 use gonio_simd::{F, Lanes, M, Spectrum, Vec3};
 
 /// Slots in a list.
@@ -38,7 +38,7 @@ pub struct Lobes<'s, L: Lanes> {
     pub(crate) emission: Spectrum<L>,
     pub(crate) opacity: F<L>,
     pub(crate) tilts: Tilts<L>,
-    pub(crate) medium: Option<Medium<L>>,
+    pub(crate) medium: Option<WalkMedium<L>>,
     pub(crate) portal: Option<Portal<L>>,
 }
 
@@ -189,7 +189,7 @@ impl<'s, L: Lanes> Lobes<'s, L> {
     }
     /// What samples marked as entered go into; none if there are no such samples.
     #[inline(always)]
-    pub fn medium(&self) -> Option<&Medium<L>> {
+    pub fn medium(&self) -> Option<&WalkMedium<L>> {
         self.medium.as_ref()
     }
     /// Whether there is a lobe about a fibre's tangent, which scatters to all sides.

@@ -1,7 +1,7 @@
 //! Light under the surface: from a colour and a radius to a medium, the way in, and the steps of a random walk (Chiang, Kutz, Burley 2016).
 //!
 //! The walk itself goes through the scene and is the integrator's: it enters along a sample marked as such, takes steps of
-//! [`Medium::flight`] and [`Medium::arrive`] that end at the surface or at a scattering, turns by [`Medium::scatter`], and leaves through
+//! [`WalkMedium::flight`] and [`WalkMedium::arrive`] that end at the surface or at a scattering, turns by [`WalkMedium::scatter`], and leaves through
 //! [`exit`], a white Lambert lobe. Lengths are in metres.
 
 use super::diffuse::DiffuseLobe;
@@ -14,7 +14,7 @@ use gonio_simd::{F, Lanes, M, Spectrum, Vec3};
 
 /// Steps after which a walk is lost.
 pub const MAXIMUM_STEPS: u32 = 256;
-/// The step from which on the walk goes by [`Medium::reduced`].
+/// The step from which on the walk goes by [`WalkMedium::reduced`].
 pub const REDUCED_FROM: u32 = 10;
 /// Throughput under which a walk ends.
 pub const LEAST_THROUGHPUT: f32 = 1e-6;
@@ -27,7 +27,7 @@ const MOST_ALBEDO: f32 = 0.999_999;
 
 /// What is under a surface.
 #[derive(Clone, Copy, Debug)]
-pub struct Medium<L: Lanes> {
+pub struct WalkMedium<L: Lanes> {
     /// Single-scattering albedo.
     pub albedo: Spectrum<L>,
     /// Extinction coefficient, 1/m.
@@ -113,7 +113,7 @@ fn dipole_scale<L: Lanes>(colour: F<L>, eta: F<L>) -> F<L> {
     ((1.0 - reduced) * 3.0).safe_sqrt()
 }
 
-impl<L: Lanes> Medium<L> {
+impl<L: Lanes> WalkMedium<L> {
     /// The medium that gives a half-space about the colour `colour` from 0 to 1, and the factor on the throughput that goes in; `radius` in
     /// metres, `g` from −1 to 1, `eta` the index for the skin's lengths.
     #[inline(always)]
@@ -194,7 +194,7 @@ impl<L: Lanes> Medium<L> {
     }
 }
 
-/// [`Medium::new`] as a function of its own: the fit's powers would be most of a surface's code.
+/// [`WalkMedium::new`] as a function of its own: the fit's powers would be most of a surface's code.
 #[inline(never)]
 pub(crate) fn medium<L: Lanes>(
     l: L,
@@ -203,10 +203,10 @@ pub(crate) fn medium<L: Lanes>(
     radius: Spectrum<L>,
     g: F<L>,
     eta: F<L>,
-) -> (Medium<L>, Spectrum<L>) {
+) -> (WalkMedium<L>, Spectrum<L>) {
     l.vectorize(
         #[inline(always)]
-        || Medium::new(method, colour, radius, g, eta),
+        || WalkMedium::new(method, colour, radius, g, eta),
     )
 }
 

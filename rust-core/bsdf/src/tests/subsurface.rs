@@ -176,7 +176,7 @@ fn channels_without_radius_are_diffuse() {
 fn phase<L: Lanes>(l: L, g: f32, out: &mut [f64; 3]) {
     let colour = Spectrum::constant(l.f(0.5));
     let method = SubsurfaceMethod::RandomWalk;
-    let medium = crate::subsurface::Medium::new(method, colour, colour, l.f(g), l.f(1.4)).0;
+    let medium = crate::subsurface::WalkMedium::new(method, colour, colour, l.f(g), l.f(1.4)).0;
     let before = Vec3::new(l.f(0.6), l.f(0.0), l.f(-0.8));
     let mut numbers = Numbers { seed: 3, stock: Vec::new() };
     let count = 100_000 / L::COUNT;

@@ -9,7 +9,7 @@ use crate::stage::find::segments::Segments;
 use crate::stage::find::sort::{list_materials, sort_by_material};
 use crate::stage::light::shadow::occlude;
 use crate::stage::light::textured_emission::emit_from_starts;
-use crate::stage::medium::{self, MediumContext};
+use crate::stage::medium;
 use crate::stage::shade::closure::choose_closures;
 use crate::stage::shade::forward::{LightIntegrator, Splat, Wanted};
 use crate::stage::start::emit::{Emission, dim_starts, emit};
@@ -147,18 +147,13 @@ impl LightTracer<'_> {
         ws.statistics.rays += ws.paths.count as u64;
         ws.paths.set_times(&ws.times);
         find_surfaces(tables, transport, &ws.paths, &mut ws.nearest);
-        receiver.travelled(&Segments::new(
-            &tables.materials.media,
-            (&ws.paths, &ws.nearest.hits),
-            &ws.queues.light_paths.starts,
-            sample.wavelengths,
-        ));
+        receiver.travelled(&Segments::new(tables, (&ws.paths, &ws.nearest.hits), &ws.queues.light_paths.starts, sample.wavelengths));
         ws.queues.next.clear();
         // What light paths bring of caustics alone is dimmed by what scatters: camera paths find the scattered light.
         if tables.materials.media.scatters() && !self.wanted.specular_only {
-            medium::pass_light(&MediumContext { tables, transport, sample }, &mut ws.paths, &mut ws.nearest, &mut ws.queues.next);
+            medium::pass_light((tables, transport), sample, &mut ws.paths, &mut ws.nearest, &mut ws.queues.next);
         } else if tables.materials.media.varies() {
-            medium::dim(&MediumContext { tables, transport, sample }, &mut ws.paths, &ws.nearest);
+            medium::dim((tables, transport), sample, &mut ws.paths, &ws.nearest);
         }
         let light_paths = &mut ws.queues.light_paths;
         (light_paths.arrivals.count, light_paths.escapes.count) = (0, 0);

@@ -8,7 +8,7 @@ use crate::stage::find::surface::{ChunkRays, ChunkSource};
 use crate::stage::find::{found_light, intersect};
 use crate::stage::light::measure::MeasureContext;
 use crate::stage::light::shadow;
-use crate::stage::medium::{self, MediumContext};
+use crate::stage::medium;
 use crate::stage::shade::catcher;
 use crate::stage::shade::integrator::Integrator;
 use crate::stage::shade::shading::shade_chunk;
@@ -65,12 +65,11 @@ pub(crate) fn pass_media(tracer: &Tracer<'_>, sample: &SampleContext<'_>, scatte
     }
     if !scatters {
         if media.varies() {
-            medium::dim(&MediumContext { tables, transport, sample }, &mut ws.paths, &ws.nearest);
+            medium::dim((tables, transport), sample, &mut ws.paths, &ws.nearest);
         }
         return;
     }
-    let context = MediumContext { tables, transport, sample };
-    medium::pass(&context, &mut ws.paths, &mut ws.nearest, &mut ws.queues, &mut ws.deposits);
+    medium::pass((tables, transport), sample, &mut ws.paths, &mut ws.nearest, &mut ws.queues, &mut ws.deposits);
 }
 
 /// Shades all surface hits, material by material, a chunk at a time.

@@ -4,6 +4,7 @@
 //! a column there, and somebody who decides its value at scattering ([`crate::state::vertex::Vertex`]'s makers).
 
 use crate::media::set::{MediaColumns, MediaSet};
+use crate::tables::Tables;
 use crate::words::flag;
 use gonio_camera::Surroundings;
 use gonio_simd::{Column, F, Lanes, One, Spectrum, U};
@@ -60,6 +61,12 @@ impl<L: Lanes> PathCore<L> {
         let throughput = Spectrum::constant(l.gather(&sensors.squared_index, sensor));
         let media = sensors.media.gather(l, sensor);
         Self { throughput, media, ..Self::new(l, slot, l.u(flag::CAMERA | flag::DELTA)) }
+    }
+
+    /// That of a path which begins, a line, in what fills all of space.
+    #[inline(always)]
+    pub(crate) fn of_world(l: L, tables: &Tables, slot: U<L>, flags: U<L>) -> Self {
+        Self { media: MediaSet::everywhere(l, &tables.materials.media), ..Self::new(l, slot, flags) }
     }
 
     /// That of a path which begins, a line, in the open.

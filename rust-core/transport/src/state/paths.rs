@@ -2,11 +2,15 @@
 //!
 //! Rays lie in plain columns, as the TLAS traverses them. What stages gather of chosen paths lies in items of four words, one load a lane.
 
-use crate::media::set::MediaColumns;
+use crate::media::set::{FAR, MediaColumns};
+use crate::media::track::{Track, seed};
+use crate::state::columns::gather3;
 use crate::state::passed::PassedLanes;
 use crate::state::path_core::PathCore;
 use crate::state::rays::{RayLanes, Rays};
+use crate::state::sample::SampleContext;
 use crate::state::times::SlotTimes;
+use crate::tables::Tables;
 use crate::words::{flag, ray_mask};
 use gonio_camera::sampler::CAPACITY;
 use gonio_light::LightSampleContext;
@@ -184,6 +188,26 @@ impl Paths {
     pub(crate) fn track<L: Lanes>(&self, l: L, path: U<L>) -> TrackLanes<L> {
         let [slot, flags, counts, spread] = l.gather_integer_quads(&self.track, path << 2);
         TrackLanes { slot, flags, counts, spread: F::from_bits(spread) }
+    }
+
+    /// What media leave of light on the ways of some paths, from behind what they have passed to a distance from their origins; an estimate where they vary,
+    /// another one for each sample.
+    #[inline(always)]
+    pub(crate) fn transmittance<L: Lanes>(
+        &self,
+        l: L,
+        (tables, sample): (&Tables, Option<&SampleContext<'_>>),
+        path: U<L>,
+        to: F<L>,
+        chosen: M<L>,
+    ) -> Spectrum<L> {
+        let (media, from) = (self.media.gather(l, path), self.rays.passed.distance(l, path));
+        let left = media.transmittance(&tables.materials.media, to - from);
+        let (origin, direction) = (gather3(l, &self.rays.origin, path), self.cone(l, path).direction);
+        let Some(track) = Track::of(l, &tables.materials.media, media, origin, direction) else { return left };
+        // Light paths start anywhere: no two are alike.
+        let salt = sample.map_or_else(|| l.u(0), |sample| sample.salt(l, self.track(l, path).slot));
+        left * track.transmittance([from, to.min(FAR)], chosen, seed(origin, direction, from, salt))
     }
 
     /// The slot of a path.

@@ -7,15 +7,12 @@ use crate::accumulate::deposit::{Contribution, Deposits, Source, code_of_found};
 use crate::accumulate::expression_sums::with_state;
 use crate::accumulate::guides::is_specular_path;
 use crate::kernels::{self, LightHit};
-use crate::media::set::FAR;
-use crate::media::track::{Track, seed};
 use crate::state::columns::gather3;
 use crate::state::light_paths::{Escapes, LightStarts};
 use crate::state::nearest::{MetLights, NearestHits};
 use crate::state::paths::{CarriedLanes, Paths, TrackLanes};
 use crate::state::sample::SampleContext;
 use crate::tables::Tables;
-use crate::tables::media::MediumTable;
 use crate::tables::transport::Transport;
 use crate::words::{code, flag};
 use gonio_accel::NONE;
@@ -63,30 +60,10 @@ pub(crate) fn escape<L: Lanes>(
 #[inline(always)]
 fn leaving_scene<L: Lanes>(l: L, tables: &Tables, paths: &Paths, path: U<L>, sample: Option<&SampleContext<'_>>) -> Spectrum<L> {
     let throughput = paths.carried(l, path).throughput;
-    let media = &tables.materials.media;
-    if media.is_empty() {
+    if tables.materials.media.is_empty() {
         return throughput;
     }
-    throughput * transmittance(l, (media, sample), paths, path, [paths.rays.passed.distance(l, path), l.f(f32::MAX)], l.m(true))
-}
-
-/// What media leave of light on the ways of paths between distances from their origins; an estimate where they vary, another one for each sample.
-#[inline(always)]
-pub(super) fn transmittance<L: Lanes>(
-    l: L,
-    (table, sample): (&MediumTable, Option<&SampleContext<'_>>),
-    paths: &Paths,
-    path: U<L>,
-    [from, to]: [F<L>; 2],
-    chosen: M<L>,
-) -> Spectrum<L> {
-    let media = paths.media.gather(l, path);
-    let left = media.transmittance(table, to - from);
-    let (origin, direction) = (gather3(l, &paths.rays.origin, path), paths.cone(l, path).direction);
-    let Some(track) = Track::of(l, table, media, origin, direction) else { return left };
-    // Light paths start anywhere: no two are alike.
-    let salt = sample.map_or_else(|| l.u(0), |sample| sample.salt(l, paths.track(l, path).slot));
-    left * track.transmittance([from, to.min(FAR)], chosen, seed(origin, direction, from, salt))
+    throughput * paths.transmittance(l, (tables, sample), path, l.f(f32::MAX), l.m(true))
 }
 
 /// Adds the emission of light shapes that paths hit, weighted by MIS against next event estimation.
@@ -117,12 +94,8 @@ fn add_shapes<L: Lanes>(
             let factor = tables.lights.scattered_factor(l, light, (flags >> flag::LAST_SHIFT) & 3);
             weight = (flags & flag::CAMERA).ne(0).select(weight, weight * factor);
         }
-        let radiance = if tables.any_absorbing {
-            let ends = [paths.rays.passed.distance(l, path), t];
-            radiance * transmittance(l, (&tables.materials.media, Some(sample)), paths, path, ends, alive)
-        } else {
-            radiance
-        };
+        let radiance =
+            if tables.any_absorbing { radiance * paths.transmittance(l, (tables, Some(sample)), path, t, alive) } else { radiance };
         let value = transport.limits.clamped(radiance * carried.throughput * weight, flags >> flag::BOUNCE_SHIFT);
         let code = with_state(transport.passes.expressions.as_deref(), code_of_found(flags, code::EMISSION), flags);
         let specular = is_specular_path(flags, slot);

@@ -1,10 +1,9 @@
 //! The ways of light paths in one bounce, each from a scattering to the next surface, or out of the scene.
 
-use super::found_light::transmittance;
 use crate::state::light_paths::LightStarts;
 use crate::state::paths::Paths;
 use crate::state::wavelengths::{SlotWavelengths, at_slots};
-use crate::tables::media::MediumTable;
+use crate::tables::Tables;
 use crate::words::flag;
 use gonio_accel::{Hits, NONE};
 use gonio_simd::{Lanes, One};
@@ -12,7 +11,7 @@ use gonio_simd::{Lanes, One};
 /// The segments of a batch in one bounce, by their numbers.
 #[derive(Clone, Copy, Debug)]
 pub struct Segments<'a> {
-    media: &'a MediumTable,
+    tables: &'a Tables,
     paths: &'a Paths,
     hits: &'a Hits,
     starts: &'a LightStarts,
@@ -34,12 +33,12 @@ pub struct Segment {
 
 impl<'a> Segments<'a> {
     pub(crate) fn new(
-        media: &'a MediumTable,
+        tables: &'a Tables,
         (paths, hits): (&'a Paths, &'a Hits),
         starts: &'a LightStarts,
         wavelengths: Option<&'a SlotWavelengths>,
     ) -> Self {
-        Self { media, paths, hits, starts, wavelengths }
+        Self { tables, paths, hits, starts, wavelengths }
     }
 
     /// How many there are.
@@ -68,8 +67,7 @@ impl<'a> Segments<'a> {
     /// Flux that one carries at a distance from its origin, R, G, B in the units of the emission.
     pub fn flux(&self, segment: usize, distance: f32) -> [f32; 3] {
         let path = One.u(segment as u32);
-        let ends = [self.paths.rays.passed.distance(One, path), One.f(distance)];
-        let left = transmittance(One, (self.media, None), self.paths, path, ends, One.m(true));
+        let left = self.paths.transmittance(One, (self.tables, None), path, One.f(distance), One.m(true));
         let flux = self.starts.carried(One, self.paths.track(One, path).slot, self.paths.carried(One, path).throughput);
         at_slots(One, self.wavelengths, self.paths.track(One, path).slot).to_rgb(flux * left).into()
     }

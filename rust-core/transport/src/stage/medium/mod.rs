@@ -16,21 +16,25 @@ use crate::media::track::{Track, nothing, seed};
 use crate::state::nearest::NearestHits;
 use crate::state::paths::Paths;
 use crate::state::queue::Queues;
+use crate::state::sample::SampleContext;
+use crate::tables::Tables;
+use crate::tables::transport::Transport;
+use context::MediumContext;
 use flight::Flight;
 use gonio_simd::{Lanes, Spectrum, dispatch};
 use way::Way;
 
-pub(crate) use context::MediumContext;
-
 /// Takes camera paths through the media between them and what they hit: those that scatter before hit nothing.
 pub(crate) fn pass(
-    context: &MediumContext<'_>,
+    (tables, transport): (&Tables, &Transport),
+    sample: &SampleContext<'_>,
     paths: &mut Paths,
     nearest: &mut NearestHits,
     queues: &mut Queues,
     deposits: &mut Deposits,
 ) {
-    dispatch!(context.transport.execution, l => pass_paths(l, context, paths, nearest, queues, deposits));
+    let context = MediumContext { tables, transport, sample };
+    dispatch!(transport.execution, l => pass_paths(l, &context, paths, nearest, queues, deposits));
 }
 
 #[inline(always)]
@@ -106,8 +110,9 @@ fn pass_shining<L: Lanes>(
 }
 
 /// For paths that no medium scatters: dims them by what varies before what they hit. What even media leave is told at hits.
-pub(crate) fn dim(context: &MediumContext<'_>, paths: &mut Paths, nearest: &NearestHits) {
-    dispatch!(context.transport.execution, l => dim_paths(l, context, paths, nearest));
+pub(crate) fn dim((tables, transport): (&Tables, &Transport), sample: &SampleContext<'_>, paths: &mut Paths, nearest: &NearestHits) {
+    let context = MediumContext { tables, transport, sample };
+    dispatch!(transport.execution, l => dim_paths(l, &context, paths, nearest));
 }
 
 #[inline(always)]
@@ -123,8 +128,15 @@ fn dim_paths<L: Lanes>(l: L, context: &MediumContext<'_>, paths: &mut Paths, nea
 }
 
 /// As [`pass`] for light paths, which sample no light; those that scatter are taken from the escaped ones.
-pub(crate) fn pass_light(context: &MediumContext<'_>, paths: &mut Paths, nearest: &mut NearestHits, next: &mut Paths) {
-    dispatch!(context.transport.execution, l => pass_light_paths(l, context, paths, nearest, next));
+pub(crate) fn pass_light(
+    (tables, transport): (&Tables, &Transport),
+    sample: &SampleContext<'_>,
+    paths: &mut Paths,
+    nearest: &mut NearestHits,
+    next: &mut Paths,
+) {
+    let context = MediumContext { tables, transport, sample };
+    dispatch!(transport.execution, l => pass_light_paths(l, &context, paths, nearest, next));
 }
 
 #[inline(always)]

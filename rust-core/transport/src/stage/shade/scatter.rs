@@ -11,7 +11,7 @@ use crate::state::rays::RayLanes;
 use crate::state::vertex::{CONE_PER_ROUGHNESS, Vertex};
 use crate::tables::material::{SurfaceMaterial, threshold};
 use crate::words::{counts, event, flag};
-use gonio_bsdf::{BsdfSample, Lobes, subsurface::Medium};
+use gonio_bsdf::{BsdfSample, Lobes, subsurface::WalkMedium};
 use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
 
 /// First depths of Russian roulette, for paths that leave diffusely and for any path: highlights and glass show more of what comes later.
@@ -49,7 +49,7 @@ fn pass_straight<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, chose
 
 /// Starts subsurface random walks.
 #[inline(always)]
-fn start_walks<L: Lanes>(point: &Vertex<L>, wi: Vec3<L>, throughput: Spectrum<L>, medium: &Medium<L>, chosen: M<L>, walks: &mut Walks) {
+fn start_walks<L: Lanes>(point: &Vertex<L>, wi: Vec3<L>, throughput: Spectrum<L>, medium: &WalkMedium<L>, chosen: M<L>, walks: &mut Walks) {
     if !chosen.any() {
         return;
     }

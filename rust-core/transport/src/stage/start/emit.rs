@@ -1,6 +1,5 @@
 //! Emission: light paths start at lights, or with rays of a table (pbrt's `Light::SampleLe`).
 
-use crate::media::set::MediaSet;
 use crate::state::light_paths::LightStarts;
 use crate::state::path_core::PathCore;
 use crate::state::paths::{PathLanes, Paths};
@@ -82,7 +81,6 @@ fn started<L: Lanes>(l: L, tables: &Tables, ray: &EmittedRay<L>, slot: U<L>) -> 
     let from = LightSampleContext { position: ray.origin, normal: ray.normal, receiver: l.u(0) };
     let ray = RayLanes { origin: ray.normal.mul_add(off, ray.origin), direction: ray.direction, t_min: l.f(0.0), t_max: l.f(f32::MAX) };
     // Seen by what sees shadow rays, as all that a light sends.
-    let media = MediaSet::everywhere(l, &tables.materials.media);
-    let core = PathCore { media, ..PathCore::new(l, slot, l.u(flag::DELTA | flag::FROM_LIGHT)) };
+    let core = PathCore::of_world(l, tables, slot, l.u(flag::DELTA | flag::FROM_LIGHT));
     PathLanes::start(ray, core).leaving(from, l.f(1.0))
 }

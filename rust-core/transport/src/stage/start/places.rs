@@ -3,7 +3,6 @@
 //! A pixel says where on a triangle it is, so nothing needs to be traced to find it: what its path "meets" first is written down as a hit.
 
 use crate::geometry::{NONE, SurfacePoint};
-use crate::media::set::MediaSet;
 use crate::stage::find::covered::{BEFORE, BEHIND, covered_lanes};
 use crate::stage::start::generate::TileArea;
 use crate::state::nearest::NearestHits;
@@ -198,8 +197,7 @@ fn append<L: Lanes>(l: L, tables: &Tables, table: &PlaceTable, place: &PlaceLane
     let point = tables.geometry.surface_point(l, &hit);
     // What textures lie in is not known.
     let flags = covered.select(l.u(flag::COVERED), l.u(0)) | (flag::CAMERA | flag::DELTA);
-    let media = MediaSet::everywhere(l, &tables.materials.media);
-    let core = PathCore { width: width(place, &point), media, ..PathCore::new(l, slot, flags) };
+    let core = PathCore { width: width(place, &point), ..PathCore::of_world(l, tables, slot, flags) };
     if table.measures {
         let measured = MeasureLanes {
             position: point.position,
@@ -225,7 +223,7 @@ fn append<L: Lanes>(l: L, tables: &Tables, table: &PlaceTable, place: &PlaceLane
     l.f(DISTANCE).append(inside, &mut started.hits.t, count);
     // Only the places count: the way to them from above is passed already, so that no haze dims them.
     let passed = PassedLanes { t: l.f(DISTANCE), instance: l.u(NONE), primitive: l.u(NONE), barycentric: [l.f(0.0); 2] };
-    let passed = media.is_filled().any().then_some(passed);
+    let passed = core.media.is_filled().any().then_some(passed);
     started.paths.append(&PathLanes::start(ray, core).having_passed(passed), inside);
 }
 

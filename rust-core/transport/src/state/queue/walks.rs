@@ -1,13 +1,12 @@
 //! Subsurface random walks under way: started by `stage/shade/scatter.rs`, taken step by step in `stage/walk/subsurface.rs`.
 
-use crate::media::set::MediaSet;
 use crate::state::path_core::PathCore;
 use crate::state::paths::Paths;
 use crate::state::rays::{RayLanes, Rays};
 use crate::state::times::SlotTimes;
 use crate::words::ray_mask;
 use gonio_accel::Hits;
-use gonio_bsdf::subsurface::Medium;
+use gonio_bsdf::subsurface::WalkMedium;
 use gonio_camera::sampler::CAPACITY;
 use gonio_simd::{Column, Lanes, M, PADDING, SpectrumColumns, U, padded};
 
@@ -70,7 +69,7 @@ pub(crate) struct WalkLanes<L: Lanes> {
     pub(crate) ray: RayLanes<L>,
     /// What the path carries; what does not change inside is looked up where it comes out, by [`Self::path`].
     pub(crate) core: PathCore<L>,
-    pub(crate) medium: Medium<L>,
+    pub(crate) medium: WalkMedium<L>,
     pub(crate) path: U<L>,
     pub(crate) instance: U<L>,
 }
@@ -108,7 +107,7 @@ impl Walks {
                 width: l.load(&self.width, at),
                 ..PathCore::new(l, l.load_integers(&self.slot, at), l.load_integers(&self.flags, at))
             },
-            medium: Medium {
+            medium: WalkMedium {
                 albedo: self.albedo.load(l, at),
                 extinction: self.extinction.load(l, at),
                 anisotropy: l.load(&self.anisotropy, at),
@@ -122,13 +121,16 @@ impl Walks {
     #[inline(always)]
     pub(crate) fn core<L: Lanes>(&self, l: L, walk: U<L>, paths: &Paths, any_absorbing: bool) -> PathCore<L> {
         let path = l.gather_integers(&self.path, walk);
-        PathCore {
+        let mut core = PathCore {
             throughput: self.throughput.gather(l, walk),
             counts: l.gather_integers(&self.counts, walk),
             width: l.gather(&self.width, walk),
-            media: if any_absorbing { paths.media.gather(l, path) } else { MediaSet::open(l) },
             unguided: paths.unguided(l, path),
             ..PathCore::new(l, l.gather_integers(&self.slot, walk), l.gather_integers(&self.flags, walk))
+        };
+        if any_absorbing {
+            core.media = paths.media.gather(l, path);
         }
+        core
     }
 }
