@@ -2,13 +2,12 @@
 """Lamps whose strength is stated in photometric units or by a luminaire's file."""
 
 from math import cos, sin
-from pathlib import Path
 
-import bpy
 import gonio
 import numpy as np
 
 from .. import luminaire
+from .spectrum import spectrum
 from .transforms import columns, without_scale
 
 QUANTITIES = {
@@ -33,20 +32,8 @@ def apply(description, lamp, colour, matrix, report):
         description["shaping"].update(focus=settings.cosine_power, cone_angle_deg=90.0)
     _luminaire(description, lamp, np.asarray(matrix, dtype=float), report)
     description["quantity"] = _quantity(settings, report, lamp)
-    if settings.spectrum:
-        description["spectrum"] = _spectrum(lamp, report)
-
-
-def _spectrum(lamp, report):
-    """The spectrum of a file or a name; none, with a report, where it is neither."""
-    asked = lamp.gonio.spectrum
-    path = Path(bpy.path.abspath(asked, library=lamp.library))
-    try:
-        found = gonio.read_spectrum(path.read_bytes(), path.name) if path.is_file() else gonio.illuminant(asked)
-    except (OSError, gonio.Error) as error:
-        report.add("Light", lamp.name, f"{error}; the light keeps its colour")
-        return None
-    return {key: found[key] for key in ("name", "wavelengths_nm", "power")}
+    if (shines_with := spectrum(lamp, report, "Light")) is not None:
+        description["spectrum"] = shines_with
 
 
 def _quantity(settings, report, lamp):

@@ -16,3 +16,11 @@ class GonioMaterialSettings(bpy.types.PropertyGroup):
         options={"PATH_SUPPORTS_BLEND_RELATIVE"},
         update=tag_data,
     )
+    spectrum: StringProperty(
+        name="Spectrum",
+        description="Spectrum of what the material emits, whose colour takes the place of its own: a name such as LED-B3, FL11 or 2700K, or a file of "
+        "nanometres and power, SPDX",
+        subtype="FILE_PATH",
+        options={"PATH_SUPPORTS_BLEND_RELATIVE"},
+        update=tag_data,
+    )

@@ -256,7 +256,8 @@ fn few_files_name_a_medium() {
     let mut named = Vec::new();
     for needle in ["media::set", "media::track", "media::field", "media::shadow", "tables::media", "MediumContext"] {
         let mut lines = lines_with("rust-core/transport/src", needle);
-        let home = ["/media/", "/stage/medium/", "/tables/media.rs", "//"];
+        // The crate root gives them to others.
+        let home = ["/media/", "/stage/medium/", "/tables/media.rs", "src/lib.rs", "//"];
         lines.retain(|line| !home.iter().any(|known| line.contains(known)));
         named.extend(lines.iter().filter_map(|line| Some(line.split_once(".rs")?.0.to_owned())));
     }

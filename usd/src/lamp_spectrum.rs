@@ -1,4 +1,4 @@
-//! Spectra of lights: `gonio:spectrum`, a file, a name, or pairs of nanometres and power; `docs/spectral.md` tells more.
+//! Spectra of lights and of surfaces that shine: `gonio:spectrum`, a file, a name, or pairs of nanometres and power; `docs/spectral.md` tells more.
 
 use crate::asset;
 use crate::context::Context;
@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 const SPECTRUM: &str = "gonio:spectrum";
 
-/// The spectrum of a light, where it has one; what is none is told, and the light keeps its colour.
+/// The spectrum of a light, or of what a material's surface sends, where it has one; what is none is told, and it keeps its colour.
 pub(crate) fn lamp_spectrum<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<Arc<LampSpectrum>> {
     let attribute = prim.attribute(SPECTRUM).filter(|_| prim.has_authored(SPECTRUM))?;
     let found = match attribute.type_name().as_str() {
@@ -27,7 +27,7 @@ pub(crate) fn lamp_spectrum<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py
     match found {
         Ok(spectrum) => Some(Arc::new(spectrum)),
         Err(problem) => {
-            context.refuse(&prim.origin(), &problem, "the light keeps its colour");
+            context.refuse(&prim.origin(), &problem, "its light keeps its colour");
             None
         }
     }

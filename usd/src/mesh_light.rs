@@ -1,6 +1,7 @@
 //! Meshes that `MeshLightAPI` makes lights: their materials shine.
 
 use crate::context::Context;
+use crate::lamp_spectrum::lamp_spectrum;
 use crate::light::{input, radiance, report_left_out, tint};
 use crate::light_filter;
 use crate::photometry;
@@ -55,6 +56,7 @@ pub(crate) fn material<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, bo
     let mut material = if mode == "noMaterialResponse" { Material::diffuse(origin.clone(), [0.0; 3]) } else { base.clone() };
     material.origin = origin;
     emit(&mut material, radiance, mode != "independent");
+    material.spectrum = lamp_spectrum(context, prim).or(material.spectrum);
     context.scene.add_material(material)
 }
 

@@ -8,6 +8,7 @@ from gonio.graph import Graph, renumber
 
 from .. import limits
 from ..evaluate import Pictures
+from ..spectrum import spectrum
 from . import (  # noqa: F401 (they register their nodes)
     bump,
     camera_nodes,
@@ -72,6 +73,8 @@ def translate(material, images, measurements, report, version=None, shader_aovs=
     described = _described(t, material, outputs, displacement, None if is_uneven else inside)
     if (made_of := metal(material, report)) is not None:
         described["closures"] = [{**made, "metal": made_of} for made in described["closures"]]
+    if (shines_with := spectrum(material, report, "Material")) is not None:
+        described["spectrum"] = shines_with
     if not material.use_transparent_shadow and not (end is not None and t.linked(end, "Volume", t.root)):
         # Cycles lets light into volumes always.
         described["transparent_shadows"] = False

@@ -148,7 +148,7 @@ impl Surface {
     #[inline(always)]
     pub fn emitted<L: Lanes>(&self, l: L, values: &ParameterValues, at: usize, wo: Vec3<L>, entering: M<L>) -> Spectrum<L> {
         if !self.covers_emission() {
-            return values.radiance(l, p::EMISSION_COLOR, at);
+            return self.own_emission(l, values, at);
         }
         let mut lobes = Lobes::empty(l);
         resolve(l, self, &Hits::plain(values, at, wo, entering), &mut lobes);
@@ -201,7 +201,7 @@ impl<'s, L: Lanes> Layers<'s, '_, '_, L> {
             self.lobes.opacity = self.get(p::OPACITY).saturate();
         }
         if set.emission && switches.emission_order == EmissionOrder::Top {
-            self.lobes.emission = self.values.radiance(self.l, p::EMISSION_COLOR, self.at);
+            self.lobes.emission = self.surface.own_emission(self.l, self.values, self.at);
         }
         if switches.closure != Closure::Layered {
             single(self.l, self);
@@ -221,7 +221,7 @@ impl<'s, L: Lanes> Layers<'s, '_, '_, L> {
                 Some(coat) => coat.along(coat.view),
                 None => self.white(),
             };
-            self.lobes.emission = self.values.radiance(self.l, p::EMISSION_COLOR, self.at) * self.weight * tint;
+            self.lobes.emission = self.surface.own_emission(self.l, self.values, self.at) * self.weight * tint;
         }
         if self.surface.measured.is_some() {
             self.measured(self.reflectance(p::BASE_COLOR).max(0.0));

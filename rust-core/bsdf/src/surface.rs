@@ -75,6 +75,8 @@ pub struct Surface {
     pub measured: Option<Arc<MeasuredBsdf>>,
     /// The row of its metal in the table of wavelengths; without one, and where light is colour, n and k are parameters.
     pub metal: Option<u32>,
+    /// The number of the spectrum of what it sends in the table of wavelengths, counted from 1; 0 is none.
+    pub spectrum: u32,
 }
 
 impl Surface {
@@ -82,7 +84,7 @@ impl Surface {
     pub fn new(constants: [f32; COUNT], varying: &[bool; COUNT], switches: Switches) -> Self {
         let reach = Reach { constants: &constants, varying };
         let lobes = if switches.closure == Closure::Layered { reach.layered(&switches) } else { reach.single(&switches) };
-        Self { constants, switches, lobes, measured: None, metal: None }
+        Self { constants, switches, lobes, measured: None, metal: None, spectrum: 0 }
     }
 
     /// Compiles a surface that shows a measurement: alone, or under the coat and the fuzz of a layered one in place of the base.
@@ -97,6 +99,11 @@ impl Surface {
 }
 
 impl Surface {
+    /// What it sends before anything covers it.
+    #[inline(always)]
+    pub fn own_emission<L: Lanes>(&self, l: L, values: &ParameterValues<'_>, at: usize) -> Spectrum<L> {
+        values.wavelengths.load(l, at).lamp(l.u(self.spectrum), values.colour(l, p::EMISSION_COLOR, at))
+    }
     /// Whether light may pass straight through, so that shadow rays ask [`Self::transmittance`].
     pub fn is_see_through(&self) -> bool {
         self.lobes.cut_out || self.lobes.straight || (self.switches.thin_walled && self.lobes.transmission)
@@ -262,10 +269,5 @@ impl<'a> ParameterValues<'a> {
     #[inline(always)]
     pub fn coefficient<L: Lanes>(&self, l: L, offset: usize, at: usize) -> Spectrum<L> {
         self.wavelengths.load(l, at).coefficient(self.colour(l, offset, at))
-    }
-    /// Emitted radiance.
-    #[inline(always)]
-    pub fn radiance<L: Lanes>(&self, l: L, offset: usize, at: usize) -> Spectrum<L> {
-        self.wavelengths.load(l, at).radiance(self.colour(l, offset, at))
     }
 }

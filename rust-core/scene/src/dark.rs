@@ -1,4 +1,4 @@
-//! A scene whose lights alone send light.
+//! A scene of which only a part sends light: its lights, or surfaces that are chosen.
 
 use super::{Closure, Input, Material, Medium, Scene};
 
@@ -6,17 +6,40 @@ impl Scene {
     /// The scene with its lights as they are, and nothing else that sends light: surfaces, solids, what fills meshes and all of space. What these reflect,
     /// absorb and scatter stays.
     pub fn without_emission(&self) -> Self {
-        let materials = self.materials.iter().map(dark_material).collect();
-        Self { materials, atmosphere: dark_medium(&self.atmosphere), ..self.clone() }
+        self.with_surfaces_alone(|_| false)
+    }
+
+    /// The same with the surfaces of the materials that are wanted, which shine on.
+    pub fn with_surfaces_alone(&self, wanted: impl Fn(&Material) -> bool) -> Self {
+        let lit = self.with_surfaces(wanted);
+        let materials = lit.materials.iter().map(without_glow).collect();
+        Self { materials, atmosphere: dark_medium(&self.atmosphere), ..lit }
+    }
+
+    /// The scene with all that sends light but the surfaces of materials that are not wanted.
+    pub fn with_surfaces(&self, wanted: impl Fn(&Material) -> bool) -> Self {
+        let materials =
+            self.materials.iter().map(|material| if wanted(material) { material.clone() } else { dark_surface(material) }).collect();
+        Self { materials, ..self.clone() }
     }
 }
 
 impl Scene {
     /// Whether anything may send light that is no light: a surface, a solid, what fills meshes or all of space.
     pub fn shines_without_lights(&self) -> bool {
+        self.glows() || self.materials.iter().any(Material::shines)
+    }
+
+    /// Whether any of that has no spectrum: media, and surfaces whose materials name none.
+    pub fn shines_without_spectra(&self) -> bool {
+        self.glows() || self.materials.iter().any(|material| material.spectrum.is_none() && material.shines())
+    }
+
+    /// Whether a medium sends light.
+    fn glows(&self) -> bool {
         let shines = |medium: &Medium| medium.emission != [0.0; 3];
         let within = |material: &Material| shines(&material.medium) || material.closures.iter().any(|closure| shines(&closure.solid));
-        shines(&self.atmosphere) || self.materials.iter().any(|material| material.shines() || within(material))
+        shines(&self.atmosphere) || self.materials.iter().any(within)
     }
 }
 
@@ -28,19 +51,26 @@ impl Material {
     }
 }
 
-fn dark_material(material: &Material) -> Material {
-    let closures = material.closures.iter().map(dark_closure).collect();
+/// A material whose media send nothing.
+fn without_glow(material: &Material) -> Material {
+    let closures = material.closures.iter().map(dark_solid).collect();
     Material { closures, medium: dark_medium(&material.medium), ..material.clone() }
 }
 
-fn dark_closure(closure: &Closure) -> Closure {
+/// A material whose surface sends nothing.
+fn dark_surface(material: &Material) -> Material {
+    let mut dark = material.clone();
+    for closure in dark.closures.iter_mut().filter(|closure| closure.input("emission_color").is_some()) {
+        closure.set_colour("emission_color", [0.0; 3]);
+    }
+    dark
+}
+
+fn dark_solid(closure: &Closure) -> Closure {
     let mut dark = Closure { solid: dark_medium(&closure.solid), ..closure.clone() };
     if dark.solid.is_clear() && !closure.solid.is_clear() {
         // A clear one would give its place to absorption by depth.
         dark.solid.absorption = [f32::MIN_POSITIVE; 3];
-    }
-    if dark.input("emission_color").is_some() {
-        dark.set_colour("emission_color", [0.0; 3]);
     }
     dark
 }

@@ -1,6 +1,6 @@
 //! Materials: a surface model with parameters that are constants or outputs of a node graph.
 
-use super::{Displacement, MeasuredId, Medium, MetalIndex, Origin};
+use super::{Displacement, LampSpectrum, MeasuredId, Medium, MetalIndex, Origin};
 use gonio_nodes::{Graph, Input, NodeId};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -220,6 +220,9 @@ pub struct Material {
     /// How far the surface lies off the mesh.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub displacement: Option<Displacement>,
+    /// The spectrum of what its surface sends, whose colour takes the place of the emission's, with its luminance; none: the spectrum is made of the colour.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spectrum: Option<Arc<LampSpectrum>>,
     /// What fills the closed mesh that the surface is of.
     #[serde(skip_serializing_if = "Medium::is_clear")]
     pub medium: Medium,
@@ -245,6 +248,7 @@ impl Default for Material {
             graph: Graph::default(),
             normal: None,
             displacement: None,
+            spectrum: None,
             medium: Medium::default(),
             transparent_shadows: true,
             pass_index: 0,

@@ -6,6 +6,7 @@ use super::outputs::{output_name, render_contexts};
 use super::surface::straight;
 use super::{dangling, displaced, from_usd, metal, surface, volume};
 use crate::context::Context;
+use crate::lamp_spectrum::lamp_spectrum;
 use crate::prim::Prim;
 use crate::pxr::Module;
 use gonio::scene::{Channel, Closure, Graph, Input, Material, MaterialId, Model, Operation, Origin};
@@ -31,7 +32,16 @@ pub(super) fn convert<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, pat
             let mut graph = network.graph;
             metal::apply(context, prim, &mut closures);
             let displacement = displaced::read(context, prim, &mut graph);
-            return Some(Material { origin, closures, graph, displacement, medium: medium.unwrap_or_default(), ..Material::default() });
+            let spectrum = lamp_spectrum(context, prim);
+            return Some(Material {
+                origin,
+                closures,
+                graph,
+                displacement,
+                spectrum,
+                medium: medium.unwrap_or_default(),
+                ..Material::default()
+            });
         }
         let name = if shader.id.is_empty() { format!("<{}> without a name", shader.path) } else { format!("'{}'", shader.id) };
         let place = if render_context.is_empty() { String::new() } else { format!(" (render context {render_context})") };

@@ -62,22 +62,27 @@ impl BandedScene {
         self.bands
     }
 
-    /// What all lamps of a light group send, by band over daylight D65, both of luminance 1. None where they differ, a picture tells a lamp's colours, or
-    /// what shines by itself is among them.
+    /// What all lamps of a light group send, surfaces that shine by a spectrum among them, by band over daylight D65, both of luminance 1. None where they
+    /// differ, a picture tells a lamp's colours, or what shines without a spectrum is among them.
     pub(crate) fn lamp_of_group(&self, scene: &Scene, group: &str) -> Option<Vec<f32>> {
         let is_rest = group == OTHER_LIGHTS;
         let is_of = |name: &String| name == group || is_rest && name.is_empty();
-        let shines = |id: &MaterialId| scene.materials.get(id.index()).is_some_and(Material::shines);
-        let has_surfaces = scene.instances.iter().any(|set| is_of(&set.light_group) && set.materials.iter().any(shines));
-        if has_surfaces || is_rest && scene.shines_without_lights() {
+        if is_rest && scene.shines_without_spectra() {
             return None;
         }
-        let members = scene.lights.iter().enumerate().filter(|(_, light)| is_of(&light.group) && !light.portal);
-        let mut lamps = members.filter(|(_, light)| luminance_of_pixel(light.emission.radiance) != 0.0);
-        let (number, light) = lamps.next()?;
-        let first = self.lamp(number, light)?;
-        let is_alike = |(number, light): (usize, &Light)| self.lamp(number, light).is_some_and(|other| alike(&first, &other));
-        lamps.all(is_alike).then_some(first)
+        let shines = |id: &&MaterialId| scene.materials.get(id.index()).is_some_and(Material::shines);
+        let of_group = scene.instances.iter().filter(|set| is_of(&set.light_group));
+        let surfaces = of_group.flat_map(|set| set.materials.iter().filter(shines)).map(|id| self.surface(id.index()));
+        let lights = scene.lights.iter().enumerate().filter(|(_, light)| is_of(&light.group) && !light.portal);
+        let shining = lights.filter(|(_, light)| luminance_of_pixel(light.emission.radiance) != 0.0);
+        let mut lamps = shining.map(|(number, light)| self.lamp(number, light)).chain(surfaces);
+        let first = lamps.next()??;
+        lamps.all(|other| other.is_some_and(|other| alike(&first, &other))).then_some(first)
+    }
+
+    /// What the surfaces of a material send that has a spectrum, by band over daylight D65.
+    fn surface(&self, material: usize) -> Option<Vec<f32>> {
+        self.lamps.get(self.scene.spectra.of_material(material)?).cloned()
     }
 
     /// What a light sends, by band over daylight D65.

@@ -100,14 +100,13 @@ pub(super) struct CompiledLights {
     pub(super) light_instances: (u32, Vec<u32>),
     pub(super) groups: LightGroups,
     pub(super) linking: CompiledLinking,
-    pub(super) spectra: LampSpectra,
 }
 
 /// Lays out the scene's lights, then the triangles of emissive meshes.
 pub(super) fn compile(
     scene: &Scene,
     probe: &Probe<'_>,
-    textures: &CompiledTextures,
+    (textures, spectra): (&CompiledTextures, &LampSpectra),
     previous: &KeptLights,
     origin: [f64; 3],
     diagnostics: &mut Vec<Diagnostic>,
@@ -121,7 +120,6 @@ pub(super) fn compile(
     let mut groups = GroupNames::default();
     let mut light_of = Vec::new();
     let mut filters = CompiledFilters::default();
-    let spectra = LampSpectra::of(scene, diagnostics);
     for (number, light) in scene.lights.iter().enumerate() {
         let coloured = spectra.coloured(number, light);
         let light = coloured.as_ref().unwrap_or(light);
@@ -160,19 +158,13 @@ pub(super) fn compile(
     let table = previous.table(&records, &images, &goniograms, &links, &filters);
     let kept = KeptLights { records, images, goniograms, links, filters, table: Some(table.clone()) };
     let mut table = table;
-    spectra.set(&mut table, &light_of);
-    Ok(CompiledLights {
-        table,
-        kept,
-        instances,
-        instance_light,
-        of_light: light_of,
-        triangle_lights,
-        light_instances,
-        groups,
-        linking,
-        spectra,
-    })
+    spectra.set(&mut table, &light_of, |light| {
+        let instance = light_instances.1[light - first_triangle as usize];
+        let material = geometry.material(instance, light as u32 - triangle_lights[instance as usize]);
+        // What programs know has its spectrum already.
+        if kept.records[light].shaded { 0 } else { spectra.number_of_material(material as usize) }
+    });
+    Ok(CompiledLights { table, kept, instances, instance_light, of_light: light_of, triangle_lights, light_instances, groups, linking })
 }
 
 /// The instance of each light that is a triangle, by the first light of each instance.

@@ -9,6 +9,7 @@ use super::{
     metals::Metals,
     primvars,
     textures::{self, CompiledTextures},
+    wavelengths::LampSpectra,
 };
 use crate::{
     error::{Diagnostic, Result},
@@ -23,6 +24,7 @@ pub(super) struct Looks {
     pub(super) textures: CompiledTextures,
     pub(super) measured: CompiledMeasured,
     pub(super) metals: Metals,
+    pub(super) spectra: LampSpectra,
     /// Names of the primvars that programs read.
     pub(super) names: Vec<String>,
     pub(super) materials: MaterialTable,
@@ -35,9 +37,10 @@ impl Looks {
         let textures = textures::compile(scene, &kept.images, cancel, diagnostics)?;
         let measured = measured::compile(scene, &kept.measured, diagnostics);
         let metals = Metals::of(scene, diagnostics);
+        let spectra = LampSpectra::of(scene, diagnostics);
         let names = primvars::used_names(scene, &measured);
-        let (materials, fields) = materials::compile(scene, &textures, (&measured, &metals), &names, &kept.fields, diagnostics)?;
-        Ok(Self { textures, measured, metals, names, materials, fields })
+        let (materials, fields) = materials::compile(scene, &textures, (&measured, &metals, &spectra), &names, &kept.fields, diagnostics)?;
+        Ok(Self { textures, measured, metals, spectra, names, materials, fields })
     }
 
     /// What displacement reads.

@@ -4,6 +4,7 @@ mod displacement;
 pub(super) mod media;
 mod parameters;
 mod program;
+mod spectrum;
 
 use super::{
     fields::{self, KeptFields},
@@ -11,6 +12,7 @@ use super::{
     metals::{self, Metals},
     standard_passes,
     textures::CompiledTextures,
+    wavelengths::LampSpectra,
 };
 use crate::{
     bsdf::{Bump, Closure as Single, Distribution, Fuzz, Metal, SubsurfaceMethod, Surface, Switches, parameter},
@@ -24,6 +26,7 @@ use gonio_nodes::{Channel, Operand, Value};
 pub(super) use parameters::Parameters;
 use parameters::{WEIGHT, tell_weights};
 use program::{CompiledGraph, asks_for_ray, compile_graph, sampled_program};
+pub(super) use spectrum::emission_of_colour;
 
 /// Reflectance of surfaces without a material, and of measured ones without a measurement.
 const DEFAULT_REFLECTANCE: [f32; 3] = [0.18; 3];
@@ -32,7 +35,7 @@ const DEFAULT_REFLECTANCE: [f32; 3] = [0.18; 3];
 pub(super) fn compile(
     scene: &Scene,
     textures: &CompiledTextures,
-    known: (&CompiledMeasured, &Metals),
+    (measured, metals, spectra): (&CompiledMeasured, &Metals, &LampSpectra),
     names: &[String],
     kept: &KeptFields,
     diagnostics: &mut Vec<Diagnostic>,
@@ -42,12 +45,14 @@ pub(super) fn compile(
     let mut table = MaterialTable::default();
     let usable;
     (table.media.fields, usable) = fields::compile(scene, kept, diagnostics);
-    for material in scene.materials.iter().chain([&default]) {
+    for (number, material) in scene.materials.iter().chain([&default]).enumerate() {
         let first = table.surfaces.len() as u32;
         if let Some(node) = nodes_of(material).find(|node| usize::from(node.0) >= material.graph.nodes.len()) {
             let problem = format!("the material refers to node {} of its graph, which does not exist", node.0);
             return Err(Error::scene(&material.origin, problem));
         }
+        let coloured = spectra.coloured_material(number, material);
+        let material = coloured.as_ref().unwrap_or(material);
         let graph = compile_graph(material, textures, names)?;
         tell_weights(material, &graph, diagnostics);
         metals::tell_unused(material, diagnostics);
@@ -57,7 +62,9 @@ pub(super) fn compile(
                 true => None,
                 false => media::add(&closure.solid, &material.origin, &usable, &mut table.media, diagnostics),
             };
-            table.surfaces.push(SurfaceMaterial { interior, solid_medium, ..surface(material, closure, known, &graph, diagnostics) });
+            let mut surface = surface(material, closure, (measured, metals), &graph, diagnostics);
+            surface.surface.spectrum = spectra.number_of_material(number);
+            table.surfaces.push(SurfaceMaterial { interior, solid_medium, ..surface });
         }
         if !material.shader_outputs.is_empty() {
             table.shader_outputs.push(shader_outputs(material, &graph, first as usize));

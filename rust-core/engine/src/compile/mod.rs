@@ -114,9 +114,8 @@ fn laid_out(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicBool
     report(scene, &looks.materials, &lights.table, &mut diagnostics);
     let casters = Casters::of(scene, &shapes.mesh_bounds, &looks.materials, shapes.origin);
     let (of_light, kept_lights) = (mem::take(&mut lights.of_light), mem::take(&mut lights.kept));
-    let spectra = mem::take(&mut lights.spectra);
     let mut tables = tables(scene, bvh, &mut looks, &mut shapes, lights);
-    tables.wavelengths = spectra.table(scene, &looks.metals);
+    tables.wavelengths = looks.spectra.table(scene, &looks.metals);
     lamps_in_media::find(scene, &mut tables, &of_light, &mut diagnostics);
     let mut compiled = CompiledScene {
         tables,
@@ -128,7 +127,7 @@ fn laid_out(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicBool
         besides: Besides::of(scene),
         casters,
         primvars: looks.names,
-        spectra,
+        spectra: looks.spectra,
         metals: looks.metals,
         workspaces: previous.map(|p| p.workspaces.clone()).unwrap_or_default(),
         kept: Kept {
@@ -157,7 +156,7 @@ fn lit(
 ) -> Result<CompiledLights> {
     let shading = (mem::take(&mut shapes.geometry.table), mem::take(&mut looks.materials), mem::take(&mut looks.textures.table));
     let probe = textured_emission::Probe::new(shading, shapes.origin, cancel)?;
-    let lights = lights::compile(scene, &probe, &looks.textures, kept, shapes.origin, diagnostics)?;
+    let lights = lights::compile(scene, &probe, (&looks.textures, &looks.spectra), kept, shapes.origin, diagnostics)?;
     (shapes.geometry.table, looks.materials, looks.textures.table) = probe.into_parts();
     lights.linking.set_masks(&shapes.geometry.table, &mut shapes.geometry.instances);
     shapes.geometry.instances.extend(&lights.instances);

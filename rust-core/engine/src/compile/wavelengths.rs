@@ -1,11 +1,11 @@
 //! What the wavelengths of paths mean: the table that kernels read, and the spectra of lamps.
 
-use super::metals::Metals;
+use super::{materials::emission_of_colour, metals::Metals};
 use crate::{
     colour::luminance_of_pixel,
     error::Diagnostic,
     light::LightTable,
-    scene::{LampSpectrum, Light, Observer, Scene},
+    scene::{LampSpectrum, Light, Material, Observer, Origin, Scene},
 };
 use gonio_simd::{Column, WavelengthTable};
 use gonio_spectrum::{Bands, Spectrum, Triples, triples, upsampling};
@@ -17,6 +17,8 @@ pub(super) struct LampSpectra {
     spectra: Vec<Lamp>,
     /// By light of the scene, the number of its spectrum counted from 1; 0 is none.
     of_light: Vec<u32>,
+    /// The same by material, of what its surface sends.
+    of_material: Vec<u32>,
 }
 
 /// A spectrum as kernels and colours want it, found once however many lights have it.
@@ -42,13 +44,17 @@ impl LampSpectra {
     pub(super) fn of(scene: &Scene, diagnostics: &mut Vec<Diagnostic>) -> Self {
         let mut all = Self::default();
         for light in &scene.lights {
-            let number = light.spectrum.as_ref().map_or(0, |spectrum| all.number(light, spectrum, diagnostics));
+            let number = light.spectrum.as_ref().map_or(0, |spectrum| all.number(&light.origin, spectrum, diagnostics));
             all.of_light.push(number);
+        }
+        for material in &scene.materials {
+            let number = material.spectrum.as_ref().map_or(0, |spectrum| all.number(&material.origin, spectrum, diagnostics));
+            all.of_material.push(number);
         }
         all
     }
 
-    fn number(&mut self, light: &Light, lamp: &Arc<LampSpectrum>, diagnostics: &mut Vec<Diagnostic>) -> u32 {
+    fn number(&mut self, origin: &Origin, lamp: &Arc<LampSpectrum>, diagnostics: &mut Vec<Diagnostic>) -> u32 {
         if let Some(known) = self.spectra.iter().position(|known| Arc::ptr_eq(&known.source, lamp) || known.source == *lamp) {
             return known as u32 + 1;
         }
@@ -58,8 +64,7 @@ impl LampSpectra {
                 self.spectra.len() as u32
             }
             Err(error) => {
-                diagnostics
-                    .push(Diagnostic::warning(&light.origin, format!("its spectrum cannot be used, its colour stands in for it: {error}")));
+                diagnostics.push(Diagnostic::warning(origin, format!("its spectrum cannot be used, its colour stands in for it: {error}")));
                 0
             }
         }
@@ -74,12 +79,24 @@ impl LampSpectra {
         Some(light)
     }
 
-    /// Lets the lights of a table shine by the spectra of the scene's lights that they belong to.
-    pub(super) fn set(&self, table: &mut Arc<LightTable>, of_light: &[u32]) {
+    /// A material as it shines by its spectrum.
+    pub(super) fn coloured_material(&self, number: usize, material: &Material) -> Option<Material> {
+        let lamp = self.spectra.get((self.number_of_material(number) as usize).checked_sub(1)?)?;
+        Some(emission_of_colour(material, lamp.colour))
+    }
+
+    /// The number of the spectrum of a material, counted from 1; 0 is none.
+    pub(super) fn number_of_material(&self, number: usize) -> u32 {
+        self.of_material.get(number).copied().unwrap_or(0)
+    }
+
+    /// Lets the lights of a table shine by spectra: those of the scene's lights that the first belong to, and of the triangles behind them by their materials.
+    pub(super) fn set(&self, table: &mut Arc<LightTable>, of_light: &[u32], of_triangle: impl Fn(usize) -> u32) {
         if self.spectra.is_empty() {
             return;
         }
-        let number = |light: usize| of_light.get(light).and_then(|light| self.of_light.get(*light as usize)).copied().unwrap_or(0);
+        let of_lamp = |light: u32| self.of_light.get(light as usize).copied().unwrap_or(0);
+        let number = |light: usize| of_light.get(light).map_or_else(|| of_triangle(light), |light| of_lamp(*light));
         let numbers = (0..table.len()).map(number).collect();
         Arc::make_mut(table).set_spectra(numbers);
     }
@@ -131,6 +148,11 @@ impl LampSpectra {
     /// The spectrum of a light of the scene, by its place among them all.
     pub(super) fn of_light(&self, number: usize) -> Option<usize> {
         (*self.of_light.get(number)? as usize).checked_sub(1)
+    }
+
+    /// The spectrum of a material of the scene, by its place among them all.
+    pub(super) fn of_material(&self, number: usize) -> Option<usize> {
+        (self.number_of_material(number) as usize).checked_sub(1)
     }
 
     /// How many there are.

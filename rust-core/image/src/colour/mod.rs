@@ -21,7 +21,7 @@ pub use stated::{Encoding, Stated};
 pub use transfer::{Transfer, linear_to_srgb, srgb_to_linear};
 
 /// Weights of luminance in linear Rec.709 (ITU-R BT.709).
-const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
+pub const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
 /// Luminance of a linear Rec.709 colour, in the colour's unit.
 pub fn luminance([r, g, b]: [f64; 3]) -> f64 {

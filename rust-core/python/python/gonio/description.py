@@ -10,7 +10,7 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ._gonio import _setting_error, metal, read_metal, surface_parameters
+from ._gonio import _setting_error, illuminant, metal, read_metal, read_spectrum, surface_parameters
 from .texture import Texture
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ def columns(matrix: Matrix | None) -> dict[str, Any]:
 
 def material(name: str, parameters: Mapping[str, Any]) -> dict[str, Any]:
     """A material of one OpenPBR surface; its parameters are numbers, triples or textures, `normal` a texture of tangent-space normals, `metal` what it
-    is made of."""
+    is made of, `spectrum` what its emission is of."""
     given = dict(parameters)
     closure: dict[str, Any] = {"thin_walled": given.pop("thin_walled", False)}
     nodes: list[dict[str, Any]] = []
@@ -64,8 +64,22 @@ def material(name: str, parameters: Mapping[str, Any]) -> dict[str, Any]:
         closure["normal"] = len(nodes) - 1
     if (metal_of := given.pop("metal", None)) is not None:
         closure["metal"] = metal_index(metal_of)
+    described = {"origin": name, "closures": [closure], "graph": {"nodes": nodes}}
+    if (spectrum := given.pop("spectrum", None)) is not None:
+        described["spectrum"] = lamp_spectrum(spectrum)
     closure["parameters"] = [(key, _input(key, value, nodes)) for key, value in given.items()]
-    return {"origin": name, "closures": [closure], "graph": {"nodes": nodes}}
+    return described
+
+
+def lamp_spectrum(spectrum: Any) -> dict[str, Any]:
+    """What something shines with, as descriptions have it."""
+    if isinstance(spectrum, (str, PathLike)):
+        path = Path(spectrum)
+        spectrum = read_spectrum(path.read_bytes(), path.name) if path.is_file() else illuminant(str(spectrum))
+    if not isinstance(spectrum, Mapping):
+        wavelengths, power = spectrum
+        spectrum = {"wavelengths_nm": [float(nm) for nm in wavelengths], "power": [float(value) for value in power]}
+    return {key: spectrum[key] for key in ("name", "wavelengths_nm", "power") if key in spectrum}
 
 
 def metal_index(of: Any) -> dict[str, Any]:

@@ -5,11 +5,10 @@ from __future__ import annotations
 from array import array
 from collections.abc import Mapping, Sequence
 from os import PathLike
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypedDict
 
-from ._gonio import _setting_error, blackbody_rgb, illuminant, read_spectrum
-from .description import columns, numbers
+from ._gonio import _setting_error, blackbody_rgb
+from .description import columns, lamp_spectrum, numbers
 from .texture import Texture
 
 if TYPE_CHECKING:
@@ -78,17 +77,6 @@ def light(
         "casts_shadow": True,
         **{key: given[key] for key in ("dimming", "spot", "group", "goniogram", "texture", "spectrum") if key in given},
     }
-
-
-def lamp_spectrum(spectrum: Any) -> dict[str, Any]:
-    """A light's spectrum as descriptions have it."""
-    if isinstance(spectrum, (str, PathLike)):
-        path = Path(spectrum)
-        spectrum = read_spectrum(path.read_bytes(), path.name) if path.is_file() else illuminant(str(spectrum))
-    if not isinstance(spectrum, Mapping):
-        wavelengths, power = spectrum
-        spectrum = {"wavelengths_nm": [float(nm) for nm in wavelengths], "power": [float(value) for value in power]}
-    return {key: spectrum[key] for key in ("name", "wavelengths_nm", "power") if key in spectrum}
 
 
 def _quantity(given: Mapping[str, Any]) -> Any:

@@ -119,7 +119,8 @@ class Scene(_gonio.Scene):
 
     def add_material(self, name: str = "material", **parameters: float | bool | Sequence[float] | Texture | str | Mapping[str, Any]) -> int:
         """Adds a material: keyword arguments are surface parameters by their OpenPBR names, numbers, triples or textures; `normal`, a texture of
-        tangent-space normals; `metal`, what it is made of: a name such as "gold", a file, or what `gonio.metal` gives. Gives its number."""
+        tangent-space normals; `metal`, what it is made of: a name such as "gold", a file, or what `gonio.metal` gives;
+        `spectrum`, what its emission is of, as lights take it. Gives its number."""
         return self.put_material(material(name, parameters))
 
     def add_curves(

@@ -49,7 +49,7 @@ impl SurfaceMaterial {
     #[inline(always)]
     pub(crate) fn even_radiance<L: Lanes>(&self, l: L, wavelengths: Wavelengths<'_, L>) -> Spectrum<L> {
         let [r, g, b] = self.even_emission.unwrap_or_default().map(|x| l.f(x));
-        wavelengths.radiance(Rgb::new(r, g, b))
+        wavelengths.lamp(l.u(self.surface.spectrum), Rgb::new(r, g, b))
     }
 }
 

@@ -26,9 +26,10 @@ fn check_spectra(scene: &Scene, of: &Origin, figures: &str, diagnostics: &mut Ve
     if without_spectra(scene).next().is_some() {
         diagnostics.push(Diagnostic::info(of, "sun and sky without a spectrum count as daylight D65 of their colour"));
     }
-    if scene.shines_without_lights() {
-        let message =
-            format!("surfaces, fire and haze that shine have no spectrum; in {figures} they count as daylight D65 of their colour");
+    if scene.shines_without_spectra() {
+        let message = format!(
+            "surfaces, fire and haze shine without a spectrum; in {figures} they count as daylight D65 of their colour: give materials gonio:spectrum"
+        );
         diagnostics.push(Diagnostic::warning(of, message));
     }
     Ok(())

@@ -3,7 +3,7 @@
 use super::{shines, without_spectra};
 use crate::{
     error::{Error, Result},
-    scene::{LampSpectrum, Light, Scene},
+    scene::{LampSpectrum, Light, Material, Scene},
 };
 use gonio_spectrum::{Spectrum, named};
 use std::sync::Arc;
@@ -21,24 +21,31 @@ pub(super) struct SourceScene {
 /// A lamp's spectrum that cannot be used.
 pub(super) fn by_spectrum(scene: &Scene) -> Result<Vec<SourceScene>> {
     let mut known: Vec<&Arc<LampSpectrum>> = Vec::new();
-    for spectrum in scene.lights.iter().filter(|light| shines(light)).filter_map(|light| light.spectrum.as_ref()) {
+    let of_lights = scene.lights.iter().filter(|light| shines(light)).filter_map(|light| light.spectrum.as_ref());
+    let of_surfaces = scene.materials.iter().filter(|material| material.shines()).filter_map(|material| material.spectrum.as_ref());
+    for spectrum in of_lights.chain(of_surfaces) {
         if !known.contains(&spectrum) {
             known.push(spectrum);
         }
     }
     let of_lamps = known.iter().map(|spectrum| of_lamp(scene, spectrum)).collect::<Result<Vec<_>>>()?;
-    let has_others = known.is_empty() || without_spectra(scene).next().is_some() || scene.shines_without_lights();
-    let of_daylight = || Ok(SourceScene { scene: alone(scene.clone(), |light| light.spectrum.is_none()), spectrum: daylight()? });
+    let has_others = known.is_empty() || without_spectra(scene).next().is_some() || scene.shines_without_spectra();
+    let others = || scene.with_surfaces(|material| material.spectrum.is_none());
+    let of_daylight = || Ok(SourceScene { scene: alone(others(), |light| light.spectrum.is_none()), spectrum: daylight()? });
     let daylight: Option<SourceScene> = has_others.then(of_daylight).transpose()?;
     Ok(of_lamps.into_iter().chain(daylight).collect())
 }
 
 fn of_lamp(scene: &Scene, spectrum: &Arc<LampSpectrum>) -> Result<SourceScene> {
     let is_of = |light: &Light| light.spectrum.as_ref() == Some(spectrum);
-    let origin = scene.lights.iter().find(|light| is_of(light)).map(|light| light.origin.clone()).unwrap_or_default();
+    let is_of_it = |material: &Material| material.spectrum.as_ref() == Some(spectrum);
+    let lights = scene.lights.iter().filter(|light| is_of(light)).map(|light| &light.origin);
+    let surfaces = scene.materials.iter().filter(|material| is_of_it(material)).map(|material| &material.origin);
+    let origin = lights.chain(surfaces).next().cloned().unwrap_or_default();
     let found = Spectrum::new(&spectrum.name, &spectrum.wavelengths_nm, &spectrum.power);
+    let lit = scene.with_surfaces_alone(is_of_it);
     let spectrum = found.map_err(|error| Error::scene(&origin, format!("its spectrum cannot be used: {error}")))?;
-    Ok(SourceScene { scene: alone(scene.without_emission(), is_of), spectrum })
+    Ok(SourceScene { scene: alone(lit, is_of), spectrum })
 }
 
 /// With the lights that are wanted, and portals, which let their light in.

@@ -17,7 +17,7 @@ use crate::tables::transport::Transport;
 use crate::words::{code, flag};
 use gonio_accel::NONE;
 use gonio_light::{EscapedRay, hit_weight};
-use gonio_simd::{F, Lanes, M, Spectrum, U, dispatch};
+use gonio_simd::{Lanes, Spectrum, U, dispatch};
 
 /// Adds the light that shapes and the environment send along the rays of paths.
 pub(crate) fn add_found(

@@ -24,7 +24,6 @@ use crate::words::{code, event, flag};
 use gonio_bsdf::{
     Hits, Lobes, WAY_NUMBERS,
     normals::{Normals, is_raised},
-    parameter::EMISSION_COLOR,
 };
 use gonio_camera::sampler::dimension;
 use gonio_light::hit_weight;
@@ -196,7 +195,7 @@ pub(crate) fn add_emission_apart<L: Lanes>(
         let present =
             if tables.geometry.set_holdout.is_empty() { point.alive } else { without_holdouts(chunk, material, &point, point.alive, None) };
         let weight = weights.load(l, at);
-        add_emission(chunk, &point, values.radiance(l, EMISSION_COLOR, at) * weight, present, at, deposits);
+        add_emission(chunk, &point, material.surface.own_emission(l, &values, at) * weight, present, at, deposits);
     }
 }
 
