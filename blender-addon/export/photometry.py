@@ -32,8 +32,8 @@ def apply(description, lamp, colour, matrix, report):
         description["shaping"].update(focus=settings.cosine_power, cone_angle_deg=90.0)
     _luminaire(description, lamp, np.asarray(matrix, dtype=float), report)
     description["quantity"] = _quantity(settings, report, lamp)
-    if (shines_with := spectrum(lamp, report, "Light")) is not None:
-        description["spectrum"] = shines_with
+    if settings.spectrum:
+        description["spectrum"] = spectrum(lamp, report, "Light")
 
 
 def _quantity(settings, report, lamp):

@@ -8,10 +8,8 @@ import gonio
 
 
 def spectrum(shining, report, kind):
-    """The spectrum that a lamp or a material names, as the core has it; None where it names none, or, with a report, neither a file nor a name."""
+    """The spectrum that a lamp or a material names, as the core has it; None, with a report, where it is neither a file nor a name."""
     asked = shining.gonio.spectrum
-    if not asked:
-        return None
     path = Path(bpy.path.abspath(asked, library=shining.library))
     try:
         found = gonio.read_spectrum(path.read_bytes(), path.name) if path.is_file() else gonio.illuminant(asked)

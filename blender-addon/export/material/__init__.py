@@ -73,8 +73,8 @@ def translate(material, images, measurements, report, version=None, shader_aovs=
     described = _described(t, material, outputs, displacement, None if is_uneven else inside)
     if (made_of := metal(material, report)) is not None:
         described["closures"] = [{**made, "metal": made_of} for made in described["closures"]]
-    if (shines_with := spectrum(material, report, "Material")) is not None:
-        described["spectrum"] = shines_with
+    if material.gonio.spectrum:
+        described["spectrum"] = spectrum(material, report, "Material")
     if not material.use_transparent_shadow and not (end is not None and t.linked(end, "Volume", t.root)):
         # Cycles lets light into volumes always.
         described["transparent_shadows"] = False

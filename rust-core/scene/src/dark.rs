@@ -27,16 +27,16 @@ impl Scene {
 impl Scene {
     /// Whether anything may send light that is no light: a surface, a solid, what fills meshes or all of space.
     pub fn shines_without_lights(&self) -> bool {
-        self.glows() || self.materials.iter().any(Material::shines)
+        self.media_shine() || self.materials.iter().any(Material::shines)
     }
 
     /// Whether any of that has no spectrum: media, and surfaces whose materials name none.
     pub fn shines_without_spectra(&self) -> bool {
-        self.glows() || self.materials.iter().any(|material| material.spectrum.is_none() && material.shines())
+        self.media_shine() || self.materials.iter().any(|material| material.spectrum.is_none() && material.shines())
     }
 
-    /// Whether a medium sends light.
-    fn glows(&self) -> bool {
+    /// Whether a medium sends light: a solid, what fills meshes or all of space.
+    pub fn media_shine(&self) -> bool {
         let shines = |medium: &Medium| medium.emission != [0.0; 3];
         let within = |material: &Material| shines(&material.medium) || material.closures.iter().any(|closure| shines(&closure.solid));
         shines(&self.atmosphere) || self.materials.iter().any(within)

@@ -65,3 +65,57 @@ def test_what_is_no_spectrum_is_told(tmp_path, wrong):
     except gonio.Error as error:
         told = [str(error)]
     assert any("/Sky" in str(message) and ("LED-B77" in str(message) or "missing.csv" in str(message)) for message in told)
+
+
+PANEL = """#usda 1.0
+(
+    metersPerUnit = 1
+    upAxis = "Z"
+)
+def Mesh "Panel" (
+    prepend apiSchemas = ["MaterialBindingAPI"%s]
+) {
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]
+    point3f[] points = [(-1, -1, 2), (-1, 1, 2), (1, 1, 2), (1, -1, 2)]
+    rel material:binding = </Glow>
+    %s
+}
+def Material "Glow" {
+    token outputs:surface.connect = </Glow/Surface.outputs:surface>
+    %s
+    def Shader "Surface" {
+        uniform token info:id = "UsdPreviewSurface"
+        color3f inputs:emissiveColor = (%g, %g, %g)
+        token outputs:surface
+    }
+}
+"""
+
+
+@pytest.mark.parametrize(
+    ("api", "on_mesh", "on_material", "glow"),
+    [
+        ("", "", 'string gonio:spectrum = "FL11"', 1.0),
+        (', "MeshLightAPI"', 'float inputs:intensity = 1\n    string gonio:spectrum = "FL11"', "", 0.0),
+        (', "MeshLightAPI"', 'float inputs:intensity = 1\n    string gonio:spectrum = "FL11"', 'string gonio:spectrum = "HP1"', 0.0),
+    ],
+    ids=["material", "mesh light", "the mesh light's own"],
+)
+def test_meshes_shine_by_spectra(tmp_path, api, on_mesh, on_material, glow):
+    path = tmp_path / "panel.usda"
+    path.write_text(PANEL % (api, on_mesh, on_material, glow, glow, glow), encoding="utf-8")
+    scene = gonio.load_usd(path)
+    scene.add_meter((0, 0, 0), facing=(0, 0, 1), quantity="cct")
+    found = gonio.measure(scene, samples=1024).meters[0].colour
+    lamp = gonio.illuminant("FL11")
+    expected = gonio.spectrum_figures(lamp["wavelengths_nm"], lamp["power"])
+    assert found["cct"] == pytest.approx(expected["cct"], abs=1)
+    assert found["melanopic_edi_lx"] / found["illuminance_lx"] == pytest.approx(expected["melanopic_der"], abs=0.002)
+
+
+def test_a_material_of_no_spectrum_is_told(tmp_path):
+    path = tmp_path / "panel.usda"
+    path.write_text(PANEL % ("", "", 'string gonio:spectrum = "LED-B77"', 1.0, 1.0, 1.0), encoding="utf-8")
+    told = gonio.load_usd(path).diagnostics
+    assert any("/Glow" in str(message) and "LED-B77" in str(message) for message in told)

@@ -47,3 +47,37 @@ def test_what_is_no_spectrum_is_told_with_the_lamp(tmp_path: Path):
     settings.spectrum = "FL11"
     made, report = exporter()
     assert made.sync(depsgraph()).lights[0]["spectrum"]["name"] == "CIE FL11" and not report.diagnostics
+
+
+@pytest.mark.blender
+def test_a_material_shines_by_its_spectrum(tmp_path: Path):
+    import bpy
+    import scenes
+    from recorder import depsgraph, exporter
+
+    def colour(name):
+        scene = scenes.lit_floor(samples=64, width=16, height=16)
+        bpy.data.objects.remove(bpy.data.objects["Lamp"])
+        bpy.ops.mesh.primitive_plane_add(size=1.0, location=(0.0, 0.0, 2.0), rotation=(3.14159265, 0.0, 0.0))
+        material = bpy.data.materials.new("Glow")
+        material.use_nodes = True
+        tree = material.node_tree
+        tree.nodes.clear()
+        emission, end = tree.nodes.new("ShaderNodeEmission"), tree.nodes.new("ShaderNodeOutputMaterial")
+        emission.inputs["Strength"].default_value = 20.0
+        tree.links.new(emission.outputs[0], end.inputs["Surface"])
+        material.gonio.spectrum = name
+        bpy.context.object.data.materials.append(material)
+        bpy.context.object.visible_camera = False
+        scenes.render(tmp_path / "a.exr")
+        layers = scenes.read(tmp_path / "a.exr")
+        return [float(layers[f"ViewLayer.Combined.{channel}"].mean()) for channel in "RGB"]
+
+    plain, warm = (colour(name) for name in ("", "LED-B1"))
+    luminance = [sum(weight * part for weight, part in zip((0.2126, 0.7152, 0.0722), found, strict=True)) for found in (plain, warm)]
+    assert luminance[1] == pytest.approx(luminance[0], rel=0.01) and luminance[0] > 0.0
+    assert plain[0] == pytest.approx(plain[2], rel=0.01) and warm[0] > 2 * warm[2]
+    bpy.data.materials["Glow"].gonio.spectrum = "no such lamp"
+    made, report = exporter()
+    assert [material["spectrum"] for material in made.sync(depsgraph()).materials if "spectrum" in material] == [None]
+    assert any("no such lamp" in each.text and "keeps its colour" in each.text for each in report.diagnostics)

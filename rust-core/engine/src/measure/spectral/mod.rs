@@ -9,13 +9,13 @@ pub use colour_reading::ColourReading;
 
 use crate::{
     error::{Diagnostic, Error, Result},
-    scene::{Light, LightShape, Origin, Scene},
+    scene::{Light, LightShape, Material, Origin, Scene},
 };
 
 /// Checks whether the colours of a scene's lights stand in for spectra that nobody knows, in figures of this name at meters of an origin.
 ///
 /// # Errors
-/// Lamps without a spectrum.
+/// Lamps and surfaces that shine without a spectrum.
 fn check_spectra(scene: &Scene, of: &Origin, figures: &str, diagnostics: &mut Vec<Diagnostic>) -> Result<()> {
     let is_sky = |light: &&Light| matches!(light.shape, LightShape::Dome { .. } | LightShape::Distant { .. });
     if let Some(lamp) = without_spectra(scene).find(|light| !is_sky(light)) {
@@ -23,13 +23,16 @@ fn check_spectra(scene: &Scene, of: &Origin, figures: &str, diagnostics: &mut Ve
             format!("{figures} want its spectrum, which its colour does not tell: give it gonio:spectrum, a file or a name such as LED-B3");
         return Err(Error::scene(&lamp.origin, problem));
     }
+    if let Some(surface) = surfaces_without_spectra(scene).next() {
+        let problem =
+            format!("it shines, and {figures} want its spectrum, which its colour does not tell: give it gonio:spectrum, a file or a name");
+        return Err(Error::scene(&surface.origin, problem));
+    }
     if without_spectra(scene).next().is_some() {
         diagnostics.push(Diagnostic::info(of, "sun and sky without a spectrum count as daylight D65 of their colour"));
     }
-    if scene.shines_without_spectra() {
-        let message = format!(
-            "surfaces, fire and haze shine without a spectrum; in {figures} they count as daylight D65 of their colour: give materials gonio:spectrum"
-        );
+    if scene.media_shine() {
+        let message = format!("fire and haze that shine have no spectrum; in {figures} they count as daylight D65 of their colour");
         diagnostics.push(Diagnostic::warning(of, message));
     }
     Ok(())
@@ -38,6 +41,12 @@ fn check_spectra(scene: &Scene, of: &Origin, figures: &str, diagnostics: &mut Ve
 /// Lights that shine without a spectrum.
 fn without_spectra(scene: &Scene) -> impl Iterator<Item = &Light> {
     scene.lights.iter().filter(|light| light.spectrum.is_none() && shines(light))
+}
+
+/// Materials of surfaces that shine without a spectrum.
+fn surfaces_without_spectra(scene: &Scene) -> impl Iterator<Item = &Material> {
+    let used = scene.instances.iter().flat_map(|set| &set.materials).filter_map(|id| scene.materials.get(id.index()));
+    used.filter(|material| material.spectrum.is_none() && material.shines())
 }
 
 fn shines(light: &Light) -> bool {
