@@ -19,7 +19,7 @@ UNITS = (
     ("CANDELA", "Intensity (cd)", "The greatest luminous intensity", 3),
     ("LUX", "Illuminance (lx)", "Illuminance of a surface that faces the light where it is strongest, at a distance", 4),
     ("NIT", "Luminance (cd/m²)", "The greatest luminance of the surface that shines", 5),
-    ("WATT", "Radiant Flux (W)", "Radiant flux of all the light that leaves, at 177.83 lm/W", 6),
+    ("WATT", "Radiant Flux (W)", "Radiant flux of all the light that leaves: at the lm/W of its spectrum, at 177.83 lm/W without one", 6),
 )
 OPENINGS = (
     ("FILE", "Luminaire", "The luminous opening that the file states", 0),

@@ -17,6 +17,12 @@ TILT=NONE
 DOWN = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 1], [0, 0, 0, 1]]
 
 
+def efficacy(name: str) -> float:
+    """Lumens of a watt of a lamp's spectrum."""
+    lamp = gonio.illuminant(name)
+    return gonio.spectrum_figures(lamp["wavelengths_nm"], lamp["power"])["ler"]
+
+
 def lux(shape: str, **keywords) -> float:
     """Illuminance one metre straight under a light."""
     scene = gonio.Scene()
@@ -40,6 +46,7 @@ def lux(shape: str, **keywords) -> float:
         ("sphere", {"lumens": 100.0, "radius": 0.002}, 100.0 / (4 * math.pi)),
         ("rectangle", {"lumens": 100.0, "width": 0.005, "height": 0.005}, 100.0 / math.pi),
         ("disk", {"watts": 1.0, "radius": 0.002}, 177.83 / math.pi),
+        ("point", {"watts": 10.0, "spectrum": "HP1"}, 10.0 * efficacy("HP1") / (4 * math.pi)),
         ("point", {"candela": 30.0}, 30.0),
         ("point", {"lux": 30.0}, 30.0),
         ("point", {"lux": (30.0, 3.0)}, 270.0),

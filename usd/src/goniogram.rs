@@ -121,6 +121,14 @@ fn read(
             for warning in &goniogram.warnings {
                 context.warn(origin, Error::in_file(&path.resolved, warning).to_string());
             }
+            let tilt = goniogram.stated.measurement_tilt;
+            if tilt != 0.0 {
+                let problem = format!(
+                    "{}: it was measured at a tilt of {tilt}°, which roads alone take off; it shines as it was measured",
+                    path.resolved
+                );
+                context.warn(origin, problem);
+            }
             Some(goniogram)
         }
         Err(problem) => {

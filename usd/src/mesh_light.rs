@@ -7,7 +7,7 @@ use crate::light_filter;
 use crate::photometry;
 use crate::prim::Prim;
 use gonio::colour::luminance_of_pixel;
-use gonio::scene::{Channel, Closure, Input, Material, MaterialId, Operation};
+use gonio::scene::{Channel, Closure, Input, LUMENS_PER_WATT, Material, MaterialId, Operation};
 
 /// Whether a light is made of the prim's geometry.
 pub(crate) fn is_geometry_light(prim: &Prim<'_>) -> bool {
@@ -26,7 +26,9 @@ pub(crate) fn material<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, bo
         return bound;
     };
     let square_metres = area.map(|area| area * context.metres_per_unit.powi(2));
-    if let Some(luminance) = photometry::of_mesh(context, prim, square_metres) {
+    let spectrum = lamp_spectrum(context, prim);
+    let efficacy = spectrum.as_ref().and_then(|spectrum| spectrum.lumens_per_watt()).unwrap_or(LUMENS_PER_WATT);
+    if let Some(luminance) = photometry::of_mesh(context, prim, square_metres, efficacy) {
         let tint = tint(context, prim);
         let own = f64::from(luminance_of_pixel(tint));
         radiance = tint.map(|x| if own > 0.0 { (f64::from(x) * luminance / own) as f32 } else { 0.0 });
@@ -56,7 +58,7 @@ pub(crate) fn material<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, bo
     let mut material = if mode == "noMaterialResponse" { Material::diffuse(origin.clone(), [0.0; 3]) } else { base.clone() };
     material.origin = origin;
     emit(&mut material, radiance, mode != "independent");
-    material.spectrum = lamp_spectrum(context, prim).or(material.spectrum);
+    material.spectrum = spectrum.or(material.spectrum);
     context.scene.add_material(material)
 }
 

@@ -45,10 +45,10 @@ pub(crate) fn photometry<'py>(
     let quantity = quantity(context, prim).or(path.is_some().then_some(LightQuantity::Measured));
     let goniogram = path.and_then(|path| goniogram(context, prim, &path, quantity));
     let opening = opening(context, prim, shape, goniogram.as_deref());
-    let is_luminaire = opening.is_some();
     let dimming = dimming(context, prim);
     let rotation: f64 = attribute(context, prim, "rotation").unwrap_or(0.0);
-    let placed = is_luminaire.then(|| luminaire_place(transform, context.metres_per_unit, rotation));
+    let by_light = attribute::<String>(context, prim, "opening").as_deref() == Some("light");
+    let placed = opening.map(|_| luminaire_place(transform, by_light.then_some(context.metres_per_unit), rotation));
     Some(Photometry { quantity, dimming, goniogram, shape: opening, placed })
 }
 
@@ -112,11 +112,15 @@ fn of_light(shape: LightShape, metres_per_unit: f64) -> Opening {
     }
 }
 
-/// Files state openings in metres, whatever the stage's unit is.
-fn luminaire_place(transform: &Transform, metres_per_unit: f64, rotation_deg: f64) -> Transform {
+/// Files state openings in metres, whatever the stage's unit is and however the prim is scaled; the light's own shape is as large as it stands there, in units
+/// of so many metres.
+fn luminaire_place(transform: &Transform, metres_per_unit: Option<f64>, rotation_deg: f64) -> Transform {
     let (sine, cosine) = rotation_deg.to_radians().sin_cos();
     let turned = Transform { columns: [[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0], [0.0; 3]] };
-    transform.after(&Transform::scale(1.0 / metres_per_unit)).after(&turned)
+    match metres_per_unit {
+        Some(unit) => transform.after(&Transform::scale(1.0 / unit)).after(&turned),
+        None => transform.without_scale().after(&turned),
+    }
 }
 
 fn quantity<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<LightQuantity> {
@@ -146,14 +150,15 @@ pub(crate) fn report_unused_of_mesh<'py>(context: &mut Context<'_, 'py>, prim: &
     }
 }
 
-/// Luminance in cd/m² of a mesh light of an area in m² whose attributes say how strong it is, before its colour and its dimming.
-pub(crate) fn of_mesh<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, area: Option<f64>) -> Option<f64> {
+/// Luminance in cd/m² of a mesh light of an area in m² whose attributes say how strong it is, before its colour and its dimming;
+/// `efficacy` is in lm/W.
+pub(crate) fn of_mesh<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, area: Option<f64>, efficacy: f64) -> Option<f64> {
     use std::f64::consts::PI;
     let area = area.filter(|area| *area > 0.0);
     let luminance = match (quantity(context, prim)?, area) {
         (LightQuantity::Nits(luminance), _) => luminance,
         (LightQuantity::Lumens(flux), Some(area)) => flux / (PI * area),
-        (LightQuantity::Watts(watts), Some(area)) => watts * gonio::scene::LUMENS_PER_WATT / (PI * area),
+        (LightQuantity::Watts(watts), Some(area)) => watts * efficacy / (PI * area),
         _ => {
             context.warn(&prim.origin(), "mesh lights take nit, or lm or W of a known area; the light keeps its intensity");
             return None;

@@ -15,6 +15,13 @@ pub struct LampSpectrum {
     pub power: Vec<f64>,
 }
 
+impl LampSpectrum {
+    /// Lumens of a watt of it (luminous efficacy of radiation); none where it is no spectrum.
+    pub fn lumens_per_watt(&self) -> Option<f64> {
+        Some(Spectrum::new(&self.name, &self.wavelengths_nm, &self.power).ok()?.luminous_efficacy())
+    }
+}
+
 impl From<Spectrum> for LampSpectrum {
     fn from(found: Spectrum) -> Self {
         Self { name: found.name, wavelengths_nm: found.wavelengths_nm, power: found.power }

@@ -24,7 +24,7 @@ pub enum LightQuantity {
     },
     /// The greatest luminance in cd/m².
     Nits(f64),
-    /// Radiant flux in W, times [`LUMENS_PER_WATT`].
+    /// Radiant flux in W, times the efficacy of the light's spectrum, or [`LUMENS_PER_WATT`] without one.
     Watts(f64),
     /// The goniogram's factors are intensities in cd.
     Measured,

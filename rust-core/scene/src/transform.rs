@@ -45,6 +45,17 @@ impl Transform {
         let v = self.vector(p);
         std::array::from_fn(|i| v[i] + self.columns[3][i])
     }
+    /// The same turns, mirrors and place, with axes of length 1; flattened axes stay.
+    pub fn without_scale(&self) -> Self {
+        let mut unit = *self;
+        for column in &mut unit.columns[..3] {
+            let length = column.iter().map(|x| x * x).sum::<f64>().sqrt();
+            if length > 0.0 {
+                column.iter_mut().for_each(|x| *x /= length);
+            }
+        }
+        unit
+    }
     /// This map after `inner`.
     pub fn after(&self, inner: &Self) -> Self {
         let c = &inner.columns;

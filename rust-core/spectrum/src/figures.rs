@@ -42,12 +42,20 @@ pub struct White {
     pub rendition: Option<Rendition>,
 }
 
+impl Spectrum {
+    /// Luminous efficacy of radiation, lm/W: of the power within the observer's range.
+    pub fn luminous_efficacy(&self) -> f64 {
+        let nodes = self.nodes();
+        let [power] = sums(&nodes, |_| [1.0]);
+        EFFICACY * sums(&nodes, cie_1931)[1] / power
+    }
+}
+
 /// The figures of a spectrum.
 pub fn figures(spectrum: &Spectrum) -> Figures {
     let nodes = spectrum.nodes();
     let xyz = sums(&nodes, cie_1931);
     let [u, v] = uv(xyz);
-    let [power] = sums(&nodes, |_| [1.0]);
     let peak = (0..spectrum.power.len()).max_by(|a, b| spectrum.power[*a].total_cmp(&spectrum.power[*b])).unwrap_or(0);
     let mut notes = spectrum.notes.clone();
     let white = match cct([u, v]) {
@@ -74,7 +82,7 @@ pub fn figures(spectrum: &Spectrum) -> Figures {
         xy: xy(xyz),
         uv: [u, 1.5 * v],
         peak_nm: spectrum.wavelengths_nm[peak],
-        ler: EFFICACY * xyz[1] / power,
+        ler: spectrum.luminous_efficacy(),
         alpha_opic: alpha_opic(&nodes),
         white,
         notes,
