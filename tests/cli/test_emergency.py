@@ -186,3 +186,77 @@ def test_what_is_no_plan_is_told(tmp_path, run, plan, message):
     command = written(tmp_path, lamp("A", 0), plan=plan)
     done = run(*command)
     assert done.returncode == 1 and message in done.stderr
+
+
+def wing(tmp_path, cell=(2, 5), peak=600.0):
+    """A file of planes 22.5° apart, 300 cd all around but for one place between whole degrees."""
+    planes, angles = [22.5 * k for k in range(5)], [2.5 * k for k in range(37)]
+    tables = [[peak if (c, v) == cell else 300.0 for v in range(len(angles))] for c in range(len(planes))]
+    text = f"IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 {len(angles)} {len(planes)} 1 2 0 0 0\n1 1 10\n{' '.join(map(str, angles))}\n{' '.join(map(str, planes))}\n"
+    (tmp_path / "wing.ies").write_text(text + "\n".join(" ".join(map(str, table)) for table in tables) + "\n")
+
+
+FILED = """def SphereLight "Wing"
+{
+    asset gonio:photometry:file = @./wing.ies@
+    token gonio:lightGroup = "Emergency"
+    double3 xformOp:translate = (0, 0, 2.5)
+    double xformOp:rotateZ = 13
+    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateZ"]
+}
+"""
+
+
+def test_the_greatest_intensity_is_the_files(tmp_path, run):
+    """It stands at one of the file's angles, which no even steps meet."""
+    wing(tmp_path, cell=(1, 27))
+    assert figures(run, written(tmp_path, FILED))["luminaires"][0]["peak_cd"] == pytest.approx(600, rel=1e-4)
+    # At the end of the angles that count, between two of the file's.
+    wing(tmp_path, cell=(1, 27))
+    (lit,) = figures(run, written(tmp_path, FILED, plan="glare_deg = [66, 67]\n" + ROUTE))["luminaires"]
+    assert lit["peak_cd"] == pytest.approx(300 + 300 * (1 - 0.5 / 2.5), rel=1e-4)
+
+
+def test_lamps_of_an_instancer_are_told_apart(tmp_path, run):
+    instancer = """def PointInstancer "Row"
+{
+    rel prototypes = </Row/Lamp>
+    int[] protoIndices = [0, 0, 0]
+    point3f[] positions = [(0, 0, 2), (1, 0, 3), (2, 0, 4)]
+    def SphereLight "Lamp"
+    {
+        float inputs:radius = 0.02
+        double gonio:photometry:quantity = 100
+        token gonio:photometry:unit = "cd"
+        token gonio:lightGroup = "Emergency"
+    }
+}
+"""
+    found = figures(run, written(tmp_path, instancer))["luminaires"]
+    assert [lit["height_m"] for lit in found] == pytest.approx([2, 3, 4])
+    assert [lit["peak_cd"] for lit in found] == pytest.approx([100] * 3, rel=1e-3)
+
+
+PANEL = """def Mesh "Panel" (prepend apiSchemas = ["MeshLightAPI"])
+{
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]
+    point3f[] points = [(3, -1, 2.4), (3, 1, 2.4), (4, 1, 2.4), (4, -1, 2.4)]
+    float inputs:intensity = 1000
+}
+"""
+
+
+def test_surfaces_that_shine_are_told(tmp_path, run):
+    command = written(tmp_path, lamp("A", 0), PANEL)
+    (note,) = figures(run, command)["notes"]
+    assert "'/Panel'" in note and "left out" in note
+    done = run(*[word for word in command if word != "-q"])
+    assert "left out" in done.stderr + done.stdout
+
+
+def test_stairs_are_looked_at_from_all_angles(tmp_path, run):
+    stairs = ROUTE.replace("[8, 0, 0]", "[8, 0, 1.5]")
+    assert figures(run, written(tmp_path, lamp("A", 0), plan=ROUTE))["glare_deg"] == [60, 90]
+    assert figures(run, written(tmp_path, lamp("A", 0), plan=stairs))["glare_deg"] == [0, 180]
+    assert figures(run, written(tmp_path, lamp("A", 0), plan="glare_deg = [60, 90]\n" + stairs))["glare_deg"] == [60, 90]

@@ -1,10 +1,10 @@
 //! `gonio emergency`.
 
-use super::{Found, leave_burning, loaded, measured, not_counted, plan, show};
+use super::{Found, leave_burning, loaded, measured, not_counted, plan, show, surfaces_left_out};
 use crate::{arguments::EmergencyOptions, messages::tell};
 use gonio::{
     Result,
-    compile::luminous_intensities,
+    compile::{luminous_intensities, stated_directions},
     measure::{IN_PART, StraightLight},
     scene::{Integrator, Scene},
 };
@@ -13,7 +13,7 @@ use gonio_norms::{
     emergency::{Figures, Lamp, Plan, lines},
 };
 use pyo3::prelude::*;
-use std::{collections::BTreeMap, sync::atomic::AtomicBool};
+use std::{cmp::Ordering, collections::BTreeMap, sync::atomic::AtomicBool};
 
 /// Degrees between directions in which intensities are asked for, across and down.
 const STEPS_DEG: [f64; 2] = [5.0, 1.0];
@@ -32,12 +32,13 @@ pub(crate) fn emergency(py: Python<'_>, options: &EmergencyOptions, interrupted:
     let not_counted = not_counted(&straight, "points", "counted");
     // What measuring says of integrators is no way out here.
     let told = told.iter().filter(|diagnostic| not_counted.is_none() || diagnostic.message != IN_PART);
-    tell(&options.stage, options.quiet, &told.chain(&not_counted).cloned().collect::<Vec<_>>());
+    let surfaces = surfaces_left_out(scene);
+    tell(&options.stage, options.quiet, &told.chain(&not_counted).chain(&surfaces).cloned().collect::<Vec<_>>());
     // Nothing but what is not counted may be all there is: no figure, and no zero.
     let known =
         |(reading, light): (Reading, &StraightLight)| if light.sees_covered && reading.lx <= 0.0 { Reading::UNKNOWN } else { reading };
     let readings: Vec<Reading> = readings.into_iter().zip(&straight).map(known).collect();
-    let notes = not_counted.into_iter().map(|note| note.message).collect();
+    let notes = not_counted.into_iter().chain(surfaces).map(|note| note.message).collect();
     let figures = Figures::new(&plan, &spots, &readings, seen(scene, &burning, &plan, up)).with_notes(notes);
     show(options, || figures.json(), || lines(&figures));
     Ok(0)
@@ -50,27 +51,58 @@ fn before(spots: &[Spot]) -> Vec<[f64; 3]> {
     spots.iter().zip(lengths).map(place).collect()
 }
 
-/// Luminaires with their height above the lowest floor of the plan and their greatest intensity within its angles; lights of one prim are one.
+/// Luminaires with their height above the lowest floor of the plan and their greatest intensity within its angles; lights of one prim at one place are one.
 fn seen(scene: &Scene, burning: &[usize], plan: &Plan, up: [f64; 3]) -> Vec<Lamp> {
     let along = |p: [f64; 3]| p[0] * up[0] + p[1] * up[1] + p[2] * up[2];
     let corners = plan.routes.iter().flat_map(|route| &route.line).chain(plan.areas.iter().flat_map(|area| &area.outline));
     let floor = corners.map(|corner| along(*corner)).fold(f64::INFINITY, f64::min);
     let floor = if floor.is_finite() { floor } else { 0.0 };
-    let intensities = luminous_intensities(scene, &directions(plan.glare_deg, up));
-    let mut lamps: BTreeMap<&str, (f64, Vec<f64>)> = BTreeMap::new();
+    let lamps = lamps(scene, burning);
+    let mut lamp_of = vec![None; scene.lights.len()];
+    lamps.iter().enumerate().for_each(|(lamp, lights)| lights.iter().for_each(|light| lamp_of[*light] = Some(lamp)));
+    let evenly = directions(plan.glare(up), up);
+    let asked: Vec<Vec<[f64; 3]>> = lamps.iter().map(|lights| [&evenly[..], &stated(scene, lights, plan.glare(up), up)].concat()).collect();
+    let intensities = luminous_intensities(scene, |light| lamp_of[light].map_or_else(Vec::new, |lamp| asked[lamp].clone()));
+    let mut seen = Vec::new();
+    for (lights, asked) in lamps.iter().zip(&asked) {
+        let mut sum = vec![0.0; asked.len()];
+        let known = lights.iter().filter_map(|light| intensities.get(*light)?.as_ref());
+        let count = known.map(|found| sum.iter_mut().zip(found).for_each(|(sum, part)| *sum += part)).count();
+        let light = &scene.lights[lights[0]];
+        // A picture over a light leaves no intensity to tell.
+        let peak_cd = (count == lights.len()).then(|| sum.into_iter().fold(0.0, f64::max));
+        seen.push(Lamp { name: light.origin.name.to_string(), height: along(light.transform.point([0.0; 3])) - floor, peak_cd });
+    }
+    seen
+}
+
+/// Numbers of the lights of each luminaire, by name: those of one prim that stand within a millimetre.
+fn lamps(scene: &Scene, burning: &[usize]) -> Vec<Vec<usize>> {
+    let mut lamps: BTreeMap<(&str, [i64; 3]), Vec<usize>> = BTreeMap::new();
     for number in burning {
         let light = &scene.lights[*number];
-        let Some(Some(found)) = intensities.get(*number) else { continue };
-        let height = along(light.transform.point([0.0; 3])) - floor;
-        let (_, sum) = lamps.entry(&light.origin.name).or_insert_with(|| (height, vec![0.0; found.len()]));
-        sum.iter_mut().zip(found).for_each(|(sum, part)| *sum += part);
+        let place = light.transform.point([0.0; 3]).map(|x| (1e3 * x).round() as i64);
+        lamps.entry((&light.origin.name, place)).or_default().push(*number);
     }
-    let lamp = |(name, (height, sum)): (&str, (f64, Vec<f64>))| Lamp {
-        name: name.to_owned(),
-        height,
-        peak_cd: sum.into_iter().fold(0.0, f64::max),
+    lamps.into_values().collect()
+}
+
+/// Directions within two angles from straight down in which the lights' files state intensities, and those angles in the planes of these directions.
+fn stated(scene: &Scene, lights: &[usize], [from, to]: [f64; 2], up: [f64; 3]) -> Vec<[f64; 3]> {
+    let [most, least] = [from, to].map(|angle| angle.to_radians().cos());
+    let down = |w: &[f64; 3]| -(w[0] * up[0] + w[1] * up[1] + w[2] * up[2]);
+    let all = lights.iter().flat_map(|light| stated_directions(&scene.lights[*light]));
+    let within = |w: &[f64; 3]| (least - 1e-9..=most + 1e-9).contains(&down(w));
+    let at_ends = |w: [f64; 3]| {
+        let level: [f64; 3] = std::array::from_fn(|k| w[k] + down(&w) * up[k]);
+        let length = level.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let end = move |cosine: f64| std::array::from_fn(|k| (1.0 - cosine * cosine).max(0.0).sqrt() * level[k] / length - cosine * up[k]);
+        [most, least].into_iter().filter(move |_| length > 1e-6).map(end)
     };
-    lamps.into_iter().map(lamp).collect()
+    let mut found: Vec<[f64; 3]> = all.flat_map(|w| at_ends(w).chain(Some(w).filter(within))).collect();
+    found.sort_by(|a, b| a.partial_cmp(b).unwrap_or(Ordering::Equal));
+    found.dedup_by(|a, b| (0..3).all(|k| (a[k] - b[k]).abs() < 1e-9));
+    found
 }
 
 /// Directions between two angles from straight down, all around.

@@ -18,7 +18,7 @@ use gonio::{
     Diagnostic, Error, Result,
     compile::compile,
     measure::{MeterReading, StraightLight, straight_light},
-    scene::{Integrator, Light, Meter, Origin, Scene},
+    scene::{Integrator, Light, Material, MaterialId, Meter, Origin, Scene},
 };
 use gonio_formats::FormatError;
 use gonio_norms::{Reading, Spot};
@@ -97,6 +97,18 @@ fn not_counted(straight: &[StraightLight], places: &str, what: &str) -> Option<D
         straight.len()
     );
     (count > 0).then(|| Diagnostic::warning(&Origin::new("luminaires"), message))
+}
+
+/// Says what shines by itself, which counts for none of these figures.
+fn surfaces_left_out(scene: &Scene) -> Option<Diagnostic> {
+    let shines = |id: &MaterialId| scene.materials.get(id.index()).is_some_and(Material::shines);
+    let mut surfaces = scene.instances.iter().filter(|set| set.materials.iter().any(shines));
+    let first = surfaces.next()?;
+    let (count, name) = (1 + surfaces.count(), &first.origin.name);
+    let message = format!(
+        "{count} surfaces that shine are left out, '{name}' the first of them: make lights of them, or give luminaires by IES or EULUMDAT files"
+    );
+    Some(Diagnostic::warning(&first.origin, message))
 }
 
 /// Leaves the lights of some groups, and those at or under some prims, burning, puts out all others and gives their numbers. Without both all that have a

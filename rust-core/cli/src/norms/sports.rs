@@ -1,6 +1,6 @@
 //! `gonio sports`.
 
-use super::{Found, leave_burning, loaded, measured, not_counted, plan, show};
+use super::{Found, leave_burning, loaded, measured, not_counted, plan, show, surfaces_left_out};
 use crate::{arguments::SportsOptions, messages::tell};
 use gonio::{
     Diagnostic, Result,
@@ -21,6 +21,7 @@ pub(crate) fn sports(py: Python<'_>, options: &SportsOptions, interrupted: &'sta
     let source = |(direction, lx): &([f64; 3], f64)| Source { direction: *direction, lx: *lx };
     let sources: Vec<Vec<Source>> = straight.iter().map(|light| light.sources.iter().map(source).collect()).collect();
     let not_counted = not_counted(&straight, "eyes", "rated as glare");
+    let not_counted: Vec<Diagnostic> = not_counted.into_iter().chain(surfaces_left_out(scene)).collect();
     let notes = not_counted.iter().map(|note| note.message.clone()).collect();
     let figures = Figures::new(&plan, up, &readings, &sources).with_notes(notes);
     told.extend(not_counted);

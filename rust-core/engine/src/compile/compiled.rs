@@ -35,6 +35,8 @@ pub struct CompiledScene {
     pub(crate) casters: Casters,
     /// Names of the primvars in the tables, whose columns follow that of the normals.
     pub(super) primvars: Vec<String>,
+    /// By light, the mean of the picture over it, where there is one.
+    pub(super) light_means: Vec<Option<[f32; 3]>>,
     /// Spectra of its lamps.
     pub(super) spectra: LampSpectra,
     /// Its metals.

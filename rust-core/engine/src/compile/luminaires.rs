@@ -1,6 +1,7 @@
 //! A scene's lights as luminaires: what they send in all, and what shines of them.
 
 use super::{
+    CompiledScene,
     goniograms::CompiledGoniograms,
     lights::{emitters, record},
     openings::Part,
@@ -14,28 +15,41 @@ use crate::{
 /// Luminous flux in lm of each of the scene's lights, dimming included. None of lights at infinity, of portals, and of lights with an image over
 /// them; 0 where a quantity cannot be had.
 pub fn luminous_fluxes(scene: &Scene) -> Vec<Option<f64>> {
-    of_luminaires(scene, quantity::flux_of)
+    of_luminaires(scene, |_, records, goniograms, far_fields| quantity::flux_of(records, goniograms, far_fields))
 }
 
-/// Luminous intensities in cd, dimming included, of each of the scene's lights as [`luminous_fluxes`] has them, towards directions of length 1.
-pub fn luminous_intensities(scene: &Scene, directions: &[[f64; 3]]) -> Vec<Option<Vec<f64>>> {
-    of_luminaires(scene, |records, goniograms, _| {
+/// Luminous intensities in cd, dimming included, of each of the scene's lights as [`luminous_fluxes`] has them, towards the directions of length 1 that are
+/// asked of it, by its number.
+pub fn luminous_intensities(scene: &Scene, asked: impl Fn(usize) -> Vec<[f64; 3]>) -> Vec<Option<Vec<f64>>> {
+    of_luminaires(scene, |number, records, goniograms, _| {
         let far_field = FarField::new(records, &goniograms.tables);
-        directions.iter().map(|direction| far_field.in_direction(*direction)[0]).collect()
+        asked(number).iter().map(|direction| far_field.in_direction(*direction)[0]).collect()
     })
 }
 
-/// What is asked of the records of each light that is a luminaire.
-fn of_luminaires<T>(scene: &Scene, mut asked: impl FnMut(&[LightRecord], &mut CompiledGoniograms, &mut FarFields) -> T) -> Vec<Option<T>> {
+/// Unit directions in which a light's file states intensities, as the light is turned: between them intensities are linear in both angles, and greatest at
+/// one of them. None of lights without a file.
+pub fn stated_directions(light: &Light) -> Vec<[f64; 3]> {
+    let Some(goniogram) = &light.goniogram else { return Vec::new() };
+    let turned = light.transform.without_scale();
+    let of = |h: &f32, v: &f32| turned.vector(goniogram.photometric_type.direction(f64::from(*h), f64::from(*v)));
+    goniogram.horizontal_deg.iter().flat_map(|h| goniogram.vertical_deg.iter().map(move |v| of(h, v))).collect()
+}
+
+/// What is asked of the number and the records of each light that sends the same everywhere on its surface.
+fn of_luminaires<T>(
+    scene: &Scene,
+    mut asked: impl FnMut(usize, &[LightRecord], &mut CompiledGoniograms, &mut FarFields) -> T,
+) -> Vec<Option<T>> {
     let mut goniograms = CompiledGoniograms::default();
     let mut far_fields = FarFields::default();
-    let of_light = |light: &Light| {
-        is_luminaire(light).then(|| {
+    let of_light = |(number, light): (usize, &Light)| {
+        (is_luminaire(light) && light.texture.is_none()).then(|| {
             let records = records(light, [0.0; 3], &mut goniograms, &mut far_fields);
-            asked(&records, &mut goniograms, &mut far_fields)
+            asked(number, &records, &mut goniograms, &mut far_fields)
         })
     };
-    scene.lights.iter().map(of_light).collect()
+    scene.lights.iter().enumerate().map(of_light).collect()
 }
 
 /// A light as an eye sees it.
@@ -51,22 +65,25 @@ pub(crate) struct Luminaire {
     pub(crate) casts_shadow: bool,
 }
 
-/// The scene's lights that have a place and no image over them and take no light away, seen from an origin in world space.
-pub(crate) fn luminaires(scene: &Scene, origin: [f64; 3]) -> Vec<Luminaire> {
+/// The scene's lights that have a place and take no light away, rebased as it is compiled. Pictures over them count by their means.
+pub(crate) fn luminaires(scene: &Scene, compiled: &CompiledScene) -> Vec<Luminaire> {
+    let origin = compiled.tables.origin;
     let mut goniograms = CompiledGoniograms::default();
     let mut far_fields = FarFields::default();
-    let luminaire = |light: &Light| {
-        let records = records(light, origin, &mut goniograms, &mut far_fields);
+    let luminaire = |(number, light): (usize, &Light)| {
+        let mut records = records(light, origin, &mut goniograms, &mut far_fields);
+        let mean = compiled.light_means.get(number).copied().flatten().unwrap_or([1.0; 3]);
+        records.iter_mut().for_each(|record| record.radiance = std::array::from_fn(|k| record.radiance[k] * mean[k]));
         let alone = |record: LightRecord| LightTable::build(&[record], &[] as &[LightTexture], &goniograms.tables);
         let emitters = records.into_iter().map(alone).collect();
         Luminaire { centre: light.transform.point([0.0; 3]), emitters, is_one: light.goniogram.is_some(), casts_shadow: light.casts_shadow }
     };
-    scene.lights.iter().filter(|light| is_luminaire(light) && !light.takes_away()).map(luminaire).collect()
+    scene.lights.iter().enumerate().filter(|(_, light)| is_luminaire(light) && !light.takes_away()).map(luminaire).collect()
 }
 
-/// Whether a light has a place and sends the same everywhere on its surface.
+/// Whether a light has a place.
 pub(crate) fn is_luminaire(light: &Light) -> bool {
-    !light.shape.is_at_infinity() && !light.portal && light.texture.is_none()
+    !light.shape.is_at_infinity() && !light.portal
 }
 
 /// The light's emitters as strong as it is; what cannot be used is reported when the scene is compiled.

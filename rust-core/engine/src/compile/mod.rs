@@ -68,7 +68,7 @@ pub(crate) use casters::Casters;
 pub use compiled::{CompileStatistics, CompiledScene};
 pub(crate) use dice::is_diced;
 pub(crate) use luminaires::{Luminaire, is_luminaire, luminaires};
-pub use luminaires::{luminous_fluxes, luminous_intensities};
+pub use luminaires::{luminous_fluxes, luminous_intensities, stated_directions};
 pub use view::View;
 pub(crate) use view::{check_tiles, picture_view, transport, window};
 
@@ -127,6 +127,7 @@ fn laid_out(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicBool
         besides: Besides::of(scene),
         casters,
         primvars: looks.names,
+        light_means: looks.textures.light_means(scene),
         spectra: looks.spectra,
         metals: looks.metals,
         workspaces: previous.map(|p| p.workspaces.clone()).unwrap_or_default(),
@@ -186,6 +187,7 @@ fn report(scene: &Scene, materials: &MaterialTable, lights: &LightTable, diagnos
     whitted::report(scene, materials, lights, diagnostics);
     light_alone::report(scene, materials, lights, diagnostics);
     materials::media::report(&scene.atmosphere, lights, diagnostics);
+    materials::media::report_groups(scene, &materials.media, diagnostics);
 }
 
 /// What kernels read; takes it from what was compiled.

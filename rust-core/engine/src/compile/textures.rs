@@ -2,11 +2,12 @@
 
 use super::kept::{KeptImages, Stamp, Tiles};
 use super::light_images::{LightImages, light_images};
+use super::luminaires::is_luminaire;
 use crate::{
     colour::{ColourSpace, Stated},
     error::{Diagnostic, Result},
     light::LightTexture,
-    scene::{Operation, Origin, Scene, Texture, TextureId, TextureSource, Tile},
+    scene::{Light, Operation, Origin, Scene, Texture, TextureId, TextureSource, Tile},
     texture::{
         self, CacheFolder, Image, MipMap, Source, Texels, TextureError, TextureMemory, TextureRequest, TextureTable, find_tiles, is_udim,
         tile_path,
@@ -37,6 +38,20 @@ impl CompiledTextures {
     /// A scene texture's number in the table; `None` if it could not be had.
     pub(super) fn number(&self, id: TextureId) -> Option<u32> {
         self.numbers.get(id.index()).copied().flatten()
+    }
+
+    /// By light that has a place, the mean of the picture over it, where there is one.
+    pub(super) fn light_means(&self, scene: &Scene) -> Vec<Option<[f32; 3]>> {
+        let mean = |image: &LightTexture| {
+            let mut sum = [0.0; 3];
+            image.rgb.chunks_exact(3).for_each(|pixel| (0..3).for_each(|k| sum[k] += f64::from(pixel[k])));
+            sum.map(|sum| (sum / (image.rgb.len() / 3).max(1) as f64) as f32)
+        };
+        let of_light = |(light, number): (&Light, &Option<u32>)| {
+            let image = number.filter(|_| is_luminaire(light)).and_then(|number| self.of_lights.get(number as usize));
+            image.map(|image| mean(image))
+        };
+        scene.lights.iter().zip(&self.light_numbers).map(of_light).collect()
     }
 }
 

@@ -11,8 +11,8 @@ pub struct Lamp {
     pub name: String,
     /// Metres above the lowest floor of the plan.
     pub height: f64,
-    /// Its greatest intensity between the plan's angles, cd, with all of its flux.
-    pub peak_cd: f64,
+    /// Its greatest intensity between the plan's angles, cd, with all of its flux; none where nobody knows it.
+    pub peak_cd: Option<f64>,
 }
 
 /// The greatest over the least (EN 1838 allows 40 : 1), with its standard error; none where the least is no light.
@@ -59,7 +59,7 @@ impl Figures {
         let up = spots.first().map_or([0.0, 0.0, 1.0], |spot| spot.normal);
         let areas = plan.areas.iter().map(|area| (area.name.clone(), Lit::new(take(area.points(up).len())))).collect();
         let places = plan.places.iter().map(|place| (place.name.clone(), take(1).1[0])).collect();
-        Self { routes, areas, places, lamps, factor, notes: Vec::new(), glare_deg: plan.glare_deg }
+        Self { routes, areas, places, lamps, factor, notes: Vec::new(), glare_deg: plan.glare(up) }
     }
 
     /// With what the figures leave out.

@@ -32,9 +32,8 @@ pub struct Plan {
     /// Points of emphasis: first aid, alarms, extinguishers.
     #[serde(default, rename = "place")]
     pub places: Vec<Place>,
-    /// Degrees from straight down, from which to which luminaires must not dazzle.
-    #[serde(default = "glare")]
-    pub glare_deg: [f64; 2],
+    /// Degrees from straight down, from which to which luminaires must not dazzle; see [`Plan::glare`].
+    pub glare_deg: Option<[f64; 2]>,
 }
 
 /// A route of some width along a line on the floor.
@@ -93,9 +92,10 @@ fn spacing() -> f64 {
 fn border() -> f64 {
     0.5
 }
-fn glare() -> [f64; 2] {
-    [60.0, 90.0]
-}
+/// Where ways are level, and where they are not (EN 1838).
+const GLARE_DEG: [[f64; 2]; 2] = [[60.0, 90.0], [0.0, 180.0]];
+/// Metres that a level way may rise.
+const LEVEL: f64 = 0.01;
 
 impl Plan {
     /// Reads a plan.
@@ -108,6 +108,14 @@ impl Plan {
         Ok(plan)
     }
 
+    /// Degrees from straight down, from which to which luminaires are looked at: where nothing is said all where a route rises, else 60 to 90.
+    pub fn glare(&self, up: [f64; 3]) -> [f64; 2] {
+        let height = |p: &[f64; 3]| p[0] * up[0] + p[1] * up[1] + p[2] * up[2];
+        let rises = |pair: &[[f64; 3]]| (height(&pair[0]) - height(&pair[1])).abs() > LEVEL;
+        let usual = GLARE_DEG[usize::from(self.routes.iter().any(|route| route.line.windows(2).any(rises)))];
+        self.glare_deg.unwrap_or(usual)
+    }
+
     fn check(&self) -> Result<(), String> {
         if self.routes.is_empty() && self.areas.is_empty() && self.places.is_empty() {
             return Err("nothing to measure, expected [[route]], [[area]] or [[place]]".to_owned());
@@ -115,7 +123,7 @@ impl Plan {
         within("flux", self.flux, [0.0, 1.0])?;
         within("maintenance_factor", self.maintenance_factor, [0.0, 1.0])?;
         within("height", self.height, [0.0, 3.0])?;
-        let [from, to] = self.glare_deg;
+        let [from, to] = self.glare_deg.unwrap_or(GLARE_DEG[0]);
         if !(0.0 <= from && from < to && to <= 180.0) {
             return Err(format!("glare_deg is [{from}, {to}], expected two rising numbers from 0 to 180"));
         }

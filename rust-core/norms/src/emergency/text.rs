@@ -1,6 +1,6 @@
 //! The figures as text.
 
-use super::figures::{Figures, max_to_min};
+use super::figures::{Figures, Lamp, max_to_min};
 use crate::lit::Lit;
 
 /// Lines for a terminal.
@@ -20,7 +20,8 @@ pub fn lines(found: &Figures) -> Vec<String> {
     if !found.lamps.is_empty() {
         lines.push(format!("greatest intensity from {from}° to {to}° above nadir, with all flux"));
     }
-    lines.extend(found.lamps.iter().map(|lamp| format!("  {}: {:.0} cd, {:.2} m above the floor", lamp.name, lamp.peak_cd, lamp.height)));
+    let peak = |lamp: &Lamp| lamp.peak_cd.map_or("unknown (a picture lies over it)".to_owned(), |peak| format!("{peak:.0} cd"));
+    lines.extend(found.lamps.iter().map(|lamp| format!("  {}: {}, {:.2} m above the floor", lamp.name, peak(lamp), lamp.height)));
     lines
 }
 
