@@ -53,6 +53,45 @@ def test_fog_before_a_catcher_covers_by_what_it_takes(integrator):
     assert np.isfinite(color).all() and color[..., :3].mean() > 0.0
 
 
+@pytest.mark.parametrize(("scattering", "absorption"), [(0.0, 0.4), (0.2, 0.2), (0.0, (0.4, 0.4, 0.4))])
+@pytest.mark.parametrize("varies", [False, True])
+def test_dark_smoke_before_a_catcher_covers_it(scattering, absorption, varies):
+    """2 m of it, beside the light's way: what does not come through covers, whether smoke scatters or takes it."""
+    scene = caught(samples=1024, fov=0.1, integrator="direct")
+    sideways = [[1, 0, 0, 0], [0, 0.5, 0.8660254, 0], [0, -0.8660254, 0.5, 0], [0, 0, 0, 1]]
+    scene.add_light("distant", (900.0,) * 3, transform=sideways, visible=False)
+    if varies:
+        placed = [[1, 0, 0, -0.5], [0, 1, 0, 4.0], [0, 0, 1, -0.5], [0, 0, 0, 1]]
+        scene.add_volume(np.ones((2, 4, 2), "f4"), voxel=0.5, transform=placed, scattering=scattering, absorption=absorption)
+    else:
+        box(scene, (-0.5, 4.0, -0.5), (0.5, 6.0, 0.5), scattering=scattering, absorption=absorption)
+    _, alpha, _ = passes(scene)
+    np.testing.assert_allclose(alpha.mean(), -np.expm1(-0.8), atol=4e-3)
+
+
+@pytest.mark.parametrize("integrator", ["path", "direct"])
+def test_dark_smoke_before_a_floor_covers_all(integrator):
+    """Smoke that only absorbs takes the floor's light, and neither lets anything of the background pass."""
+    scene = gonio.Scene()
+    scene.set(width=16, height=16, samples=256, film_transparent=True, passes=["color", "alpha"], integrator=integrator)
+    scene.add_instance(scene.add_mesh(FLOOR, QUAD), [scene.add_material(base_color=(0.5,) * 3, specular_weight=0.0)])
+    scene.add_camera(above(8), fov=0.1)
+    scene.add_light("distant", (900.0,) * 3, transform=[[1, 0, 0, 0], [0, 0.5, 0.8660254, 0], [0, -0.8660254, 0.5, 0], [0, 0, 0, 1]], visible=False)
+    placed = [[1, 0, 0, -0.5], [0, 1, 0, 4.0], [0, 0, 1, -0.5], [0, 0, 0, 1]]
+    scene.add_volume(np.ones((2, 4, 2), "f4"), voxel=0.5, transform=placed, scattering=0.0, absorption=0.4)
+    film = finished(scene)
+    np.testing.assert_allclose(np.asarray(film["alpha"]), 1.0, atol=1e-6)
+
+
+def test_fog_on_a_catcher_is_no_part_of_its_own_light():
+    """Fog that the catcher lies in: without the objects there is none, so that the way of the light counts too."""
+    scene = caught(samples=1024, fov=0.1, integrator="direct")
+    scene.add_light("distant", (900.0,) * 3, transform=[[1, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]], visible=False)
+    box(scene, (-1.0, -1.0, -1.0), (1.0, 2.0, 1.0), absorption=0.2)
+    _, alpha, _ = passes(scene)
+    np.testing.assert_allclose(alpha.mean(), -np.expm1(-0.8), atol=4e-3)
+
+
 @pytest.mark.parametrize("transparent", [True, False])
 def test_nothing_is_caught_where_nothing_is(transparent):
     scene = caught(transparent=transparent, fov=80)

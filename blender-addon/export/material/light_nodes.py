@@ -6,11 +6,11 @@ from .registry import value_node
 
 # The outputs of Light Path that shading knows.
 LIGHT_PATH = {
-    *(f"Is {kind} Ray" for kind in ("Camera", "Shadow", "Diffuse", "Glossy", "Singular", "Reflection", "Transmission")),
+    *(f"Is {kind} Ray" for kind in ("Camera", "Shadow", "Diffuse", "Glossy", "Singular", "Reflection", "Transmission", "Volume Scatter")),
     *(f"{kind} Depth" for kind in ("Ray", "Diffuse", "Glossy", "Transmission", "Transparent")),
 }
-# Those that are nothing where there are neither volumes nor portals.
-NEVER = {"Is Volume Scatter Ray", "Portal Depth"}
+# Those that are nothing where there are no portals.
+NEVER = {"Portal Depth"}
 
 
 @value_node("ShaderNodeLightPath")

@@ -79,6 +79,8 @@ pub enum LightPathValue {
     IsReflectionRay,
     /// 1 after refraction.
     IsTransmissionRay,
+    /// The ray was scattered by a medium.
+    IsVolumeScatterRay,
     /// Metres from the ray's start.
     RayLength,
     /// Scatterings so far.

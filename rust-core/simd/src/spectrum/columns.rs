@@ -120,6 +120,10 @@ impl SpectrumItems {
             item.iter_mut().zip(&factors).for_each(|(word, lanes)| *word *= lanes[lane]);
         }
     }
+    /// Makes the spectrum of an item this one; its number stays.
+    pub fn set(&mut self, spectrum: [f32; 3], at: usize) {
+        self.0[WORDS * at..][..spectrum.len()].copy_from_slice(&spectrum);
+    }
     /// Copies one item over another.
     pub fn copy(&mut self, from: usize, to: usize) {
         self.0.copy_within(WORDS * from..WORDS * (from + 1), WORDS * to);

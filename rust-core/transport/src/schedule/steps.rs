@@ -50,7 +50,7 @@ pub(crate) fn intersect(tracer: &Tracer<'_>, sample: &SampleContext<'_>, ws: &mu
 /// Forks at shadow catchers, and looks up the materials of what was hit. What media scatter before a catcher belongs to the pixel and to neither half.
 pub(crate) fn find_materials(tracer: &Tracer<'_>, ws: &mut Workspace) {
     let Tracer { tables, transport, .. } = tracer;
-    catcher::fork(tables, &mut ws.paths, &mut ws.nearest.hits);
+    catcher::fork(tables, transport, &mut ws.paths, &mut ws.nearest.hits);
     dispatch!(transport.execution, l => list_materials(l, tables, &ws.nearest.hits, &mut ws.materials.material_of));
 }
 

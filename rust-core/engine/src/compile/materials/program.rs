@@ -32,7 +32,14 @@ fn tells_kind_of_ray(operation: &Operation) -> bool {
     let Operation::LightPath(value) = operation else { return false };
     matches!(
         value,
-        V::IsCameraRay | V::IsShadowRay | V::IsDiffuseRay | V::IsGlossyRay | V::IsSingularRay | V::IsReflectionRay | V::IsTransmissionRay
+        V::IsCameraRay
+            | V::IsShadowRay
+            | V::IsDiffuseRay
+            | V::IsGlossyRay
+            | V::IsSingularRay
+            | V::IsReflectionRay
+            | V::IsTransmissionRay
+            | V::IsVolumeScatterRay
     )
 }
 

@@ -24,6 +24,14 @@ pub(super) struct Flight<L: Lanes> {
     through: Spectrum<L>,
 }
 
+impl<L: Lanes> Flight<L> {
+    /// Those of which tracking leaves nothing at the end of their way: what they would meet there is not seen.
+    #[inline(always)]
+    pub(super) fn is_absorbed(&self) -> M<L> {
+        !self.through.is_lit()
+    }
+}
+
 /// Draws a flight along each way through even media.
 #[inline(always)]
 pub(super) fn draw<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>) -> Flight<L> {
@@ -93,16 +101,16 @@ pub(super) fn multiply<L: Lanes>(paths: &mut Paths, at: usize, factor: Spectrum<
     paths.carried.multiply(factor, &places[..L::COUNT.min(paths.count - at)]);
 }
 
-/// Takes what scattered from the hits, and makes up for it where paths came through; what dims them there is told at their hits.
+/// Takes what scattered or was absorbed from the hits, and makes up for it where paths came through; what dims them there is told at their hits.
 #[inline(always)]
-pub(super) fn settle<L: Lanes>(way: &Way<L>, flight: &Flight<L>, scattered: M<L>, paths: &mut Paths, hits: &mut Hits) {
+pub(super) fn settle<L: Lanes>(way: &Way<L>, flight: &Flight<L>, ended: M<L>, paths: &mut Paths, hits: &mut Hits) {
     let l = flight.distance.lanes();
     let count = L::COUNT.min(paths.count - way.at);
-    let passed = way.scatters.and_not(scattered);
+    let passed = way.scatters.and_not(ended);
     if passed.any() {
         multiply(paths, way.at, passed.select(flight.through, Spectrum::one(l)));
     }
-    let bits = scattered.bits();
+    let bits = ended.bits();
     for lane in (0..count).filter(|lane| bits >> lane & 1 == 1) {
         hits.instance[way.at + lane] = NONE;
     }

@@ -68,9 +68,10 @@ fn pass_paths<L: Lanes>(
             light::sample_at(context, &way, &flight, going_on & tracked & flight.scatters, &mut queues.shadows, deposits);
         }
         let scattered = way.scatters & flight.scatters;
-        scatter::add_seen(context, &way, scattered, deposits);
+        let absorbed = (way.scatters & flight.is_absorbed()).and_not(scattered);
+        scatter::add_seen(context, &way, [scattered, absorbed], deposits);
         scatter::go_on(context, &way, &flight, scattered & going_on, &mut queues.next);
-        flight::settle(&way, &flight, scattered, paths, &mut nearest.hits);
+        flight::settle(&way, &flight, scattered | absorbed, paths, &mut nearest.hits);
     }
 }
 

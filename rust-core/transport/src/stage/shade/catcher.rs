@@ -7,27 +7,31 @@ use crate::accumulate::add::{add, add_rgb};
 use crate::accumulate::tile_sums::TileSums;
 use crate::kernels;
 use crate::state::chunk::ChunkContext;
+use crate::state::path_core::PathCore;
 use crate::state::paths::Paths;
 use crate::state::queue::shadow_rays::ShadowRays;
 use crate::state::vertex::Vertex;
 use crate::tables::Tables;
+use crate::tables::transport::Transport;
 use crate::words::{flag, ray_mask};
 use gonio_accel::{Hits, NONE};
 use gonio_camera::sampler::{BATCH, pixel};
 use gonio_light::EscapedRay;
-use gonio_simd::{Lanes, M, U};
+use gonio_simd::{Lanes, M, One, U};
 
 /// First slot of the halves that see all of the scene.
 const WITH_OBJECTS: u32 = 2 * BATCH as u32;
 /// First slot of the halves that see catchers alone.
 const CATCHERS_ONLY: u32 = 3 * BATCH as u32;
 
-/// Splits the paths whose camera rays met a catcher.
-pub(crate) fn fork(tables: &Tables, paths: &mut Paths, hits: &mut Hits) {
+/// Splits the paths whose camera rays met a catcher. What dims the way to it belongs to the objects: the half among catchers alone comes to it as
+/// it left the camera, and is in what fills all of space alone.
+pub(crate) fn fork(tables: &Tables, transport: &Transport, paths: &mut Paths, hits: &mut Hits) {
     let geometry = &tables.geometry;
     if geometry.set_catcher.is_empty() {
         return;
     }
+    let world = PathCore::of_world(One, tables, One.u(0), One.u(0)).media;
     for path in 0..paths.count {
         let instance = hits.instance[path];
         if instance == NONE || paths.flags(path) & flag::CAMERA == 0 {
@@ -39,6 +43,8 @@ pub(crate) fn fork(tables: &Tables, paths: &mut Paths, hits: &mut Hits) {
             hits.repeat(path);
             *paths.slot_mut(path) += WITH_OBJECTS;
             *paths.slot_mut(twin) += CATCHERS_ONLY;
+            paths.media.store(world, twin);
+            paths.carried.set([transport.squared_index; 3], twin);
             paths.count += 1;
         }
     }
@@ -92,13 +98,19 @@ pub(crate) fn may_sample<L: Lanes>(l: L, tables: &Tables, slot: U<L>, light: U<L
     slot.lt(CATCHERS_ONLY) | l.gather_integers(&tables.object_lights, light).eq(0)
 }
 
+/// Whether halves among catchers alone arrive at the catcher that split them.
+#[inline(always)]
+pub(crate) fn arrives_alone<L: Lanes>(flags: U<L>, slot: U<L>) -> M<L> {
+    (flags & flag::CAMERA).ne(0) & !slot.lt(CATCHERS_ONLY)
+}
+
 /// Keeps what is behind catchers that the camera sees: the environment alone, as if no object were there. From here on the halves are no
 /// camera paths any more.
 #[inline(always)]
 pub(crate) fn add_behind<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &mut Vertex<L>, present: M<L>, sums: &mut TileSums) {
     let ChunkContext { l, tables, transport, .. } = *chunk;
     let halved = (point.core.flags & flag::CAMERA).ne(0) & !point.core.slot.lt(WITH_OBJECTS);
-    let caught = present & halved & point.core.slot.lt(CATCHERS_ONLY);
+    let caught = present & arrives_alone(point.core.flags, point.core.slot);
     point.core.flags = halved.select(point.core.flags & !flag::CAMERA, point.core.flags);
     if !caught.any() {
         return;

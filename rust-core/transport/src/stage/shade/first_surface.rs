@@ -28,6 +28,9 @@ pub(crate) fn without_holdouts<L: Lanes>(
     let camera = (point.core.flags & flag::CAMERA).ne(0);
     let hole = if material.holdout {
         l.m(true)
+    } else if material.surface.lobes.straight {
+        // What lets all of the light pass covers nothing that could be cut out, as around fog.
+        l.m(false)
     } else {
         let set = tables.geometry.set_lanes(l, point.instance);
         l.gather_integers(&tables.geometry.set_holdout, set).ne(0)

@@ -1,5 +1,6 @@
 //! What lies before and behind the surfaces that paths hit.
 
+use super::catcher;
 use crate::media::set::Solid;
 use crate::state::chunk::ChunkContext;
 use crate::state::vertex::Vertex;
@@ -21,7 +22,11 @@ pub(crate) fn absorb<L: Lanes>(
     point.core.media = chunk.paths.media.gather(l, point.path);
     // What is before the surface that it went straight through last is behind it.
     let distance = l.gather(&chunk.hits.t, point.path) - chunk.paths.rays.passed.distance(l, point.path);
-    point.core.throughput = point.core.throughput * point.core.media.transmittance(&chunk.tables.materials.media, distance);
+    let mut left = point.core.media.transmittance(&chunk.tables.materials.media, distance);
+    if !chunk.tables.geometry.set_catcher.is_empty() {
+        left = catcher::arrives_alone(point.core.flags, point.core.slot).select(Spectrum::one(l), left);
+    }
+    point.core.throughput = point.core.throughput * left;
     let beyond = point.core.media;
     if !chunk.tables.materials.media.is_empty() {
         before_boundary(chunk, point, distance);
