@@ -49,6 +49,8 @@ class Exporter:
         self._camera_motion = {}
         # Values that materials want of meshes, by the keys of groups.
         self._primvars = {}
+        # At which times of the shutter their forms are asked for, by the keys of groups; None for those that keep them.
+        self._form_shares = {}
         # What the groups show, by their keys.
         self._shown = {}
 
@@ -74,14 +76,16 @@ class Exporter:
             shutter, ends = motion.neighbours_of(depsgraph), motion.ENDS
         if shutter is None:
             return
-        cameras = motion.cameras_of(scene)
-        seen = {share for camera in cameras for share in motion.shares_of(camera)}
+        # Settings are those at the frame, which the original objects do not have while an animation is rendered.
+        cameras = {camera.session_uid: ends or motion.shares_of(camera.evaluated_get(depsgraph)) for camera in motion.cameras_of(scene)}
+        seen = {share for shares in cameras.values() for share in shares}
         shares = {*ends} or {*self._instances.shares(), *self._lights.shares(), *seen}
-        places = motion.places_at(engine, depsgraph, shutter, shares, self._part, ends)
+        forms = {key: ends or asked for key, asked in self._form_shares.items() if asked is not None}
+        places = motion.places_at(engine, depsgraph, shutter, shares, self._part, forms)
         self._instances.blur(places, self._forms(depsgraph, places, shutter, ends), ends)
         if not ends:
             self._lights.blur(places)
-        self._camera_motion = {camera.session_uid: motion.camera_keys(camera, places, ends) for camera in cameras}
+        self._camera_motion = {uid: motion.camera_keys(uid, asked, places) for uid, asked in cameras.items()}
 
     def _forms(self, depsgraph, places, shutter, ends):
         """What stands in for the meshes, hair, curves and points that change their form, by the keys of their groups and what these show."""
@@ -218,7 +222,7 @@ class Exporter:
         keyed = list(zip(walk.groups, motion.keys_of(walk.groups), strict=True))
         layer = depsgraph.view_layer_eval
         override = layer.material_override
-        entries, keys, self._primvars, self._shown = [], [], {}, {}
+        entries, keys, self._primvars, self._shown, self._form_shares = [], [], {}, {}, {}
         for group, key in keyed:
             with self.report.guard("Object", group.name, "it is left out"):
                 limits.of_object(group, self.report)
@@ -239,6 +243,7 @@ class Exporter:
                         entries.append((group, shown, numbers, materials.placed))
                         keys.append(key)
                         self._primvars[key] = materials.primvars
+                        self._form_shares[key] = motion.form_shares(group)
                         self._shown.setdefault(key, []).append(shown)
         fill_random(depsgraph, [group for group, _, _, wanted in entries if RANDOM in wanted])
         given = [(group, wanted) for group, _, _, wanted in entries if any(name.startswith(INSTANCER) for name in wanted)]

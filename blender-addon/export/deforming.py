@@ -9,6 +9,7 @@ from .material.inputs import PARAMETRIC, TRIANGLE
 from .mesh import mesh_arguments
 from .mesh_values import apart
 from .modelled_normals import modelled
+from .object_attribute import keyed
 from .passing import passing
 
 # The attribute of points that says where they go, metres a second.
@@ -37,6 +38,7 @@ class Form:
 
 def may_change(group):
     """Whether a group's mesh may have another form at another time."""
+    # What is modelled stands in the original: its data and its modifiers.
     source = group.source.original
     if not _is_to_be_blurred(group) or has_velocities(group):
         return False
@@ -53,7 +55,7 @@ def has_velocities(group):
 
 
 def _is_to_be_blurred(group):
-    cycles = getattr(group.source.original, "cycles", None)
+    cycles = getattr(keyed(group.source), "cycles", None)
     return group.kind == "MESH" and getattr(cycles, "use_deform_motion", True)
 
 

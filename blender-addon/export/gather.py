@@ -63,7 +63,7 @@ class Walk:
 
     def __init__(self, depsgraph, report, part=None):
         self.groups, self.materials = [], {}
-        self._part, self._depsgraph, self._visibility = part, depsgraph, Visibility(depsgraph.view_layer)
+        self._part, self._depsgraph, self._visibility = part, depsgraph, Visibility(depsgraph)
         self._named = Named()
         groups, parents, count = {}, None, 0
         for row, item in enumerate(depsgraph.object_instances):
@@ -110,7 +110,7 @@ class Walk:
         self._named, special = Named(self._depsgraph.objects), {}
         for thing in self._depsgraph.objects:
             if thing.is_instancer or thing.particle_systems or thing.modifiers:
-                uid, seen = thing.original.session_uid, self._visibility.of(thing.original)
+                uid, seen = thing.original.session_uid, self._visibility.of(thing)
                 if not is_ordinary(seen) or uid in self._named.receivers or uid in self._named.blockers:
                     special[uid] = seen
         return special
@@ -120,7 +120,7 @@ class Walk:
         if kind in SILENT or data is None:
             return None
         is_instance = item.is_instance
-        seen = self._visibility.of(original)
+        seen = self._visibility.of(thing)
         placed_by = item.parent.original.session_uid if is_instance else 0
         return Group(
             original.name,

@@ -5,7 +5,7 @@ geometry nodes that have them, properties of the outermost instancer, of the obj
 import numpy as np
 
 from .instance_trail import Trails
-from .object_attribute import attribute_of, object_attribute
+from .object_attribute import attribute_of, keyed, object_attribute
 
 # Names of values that an instancer gives; the object's own where it gives none.
 PREFIX = "instancer "
@@ -38,13 +38,13 @@ class Places:
         for row, item in enumerate(depsgraph.object_instances):
             if row not in rows or not item.is_instance:
                 continue
-            parent, leaf, system = item.parent.original, item.object.original, item.particle_system
+            parent, leaf, system = item.parent, item.object.original, item.particle_system
             levels = [level for level in item.persistent_id if level != NO_LEVEL][::-1]
-            trail = trails.follow(parent, levels, leaf)
+            trail = trails.follow(parent.original, levels, leaf)
             if trail is None:
                 self.lost.add(row)
             settings = None if system is None else system.settings
-            owner = parent.session_uid, 0 if settings is None else settings.session_uid
+            owner = parent.original.session_uid, 0 if settings is None else settings.original.session_uid
             if owner not in known:
                 known[owner] = len(self._properties)
                 self._properties.append({name: _property(settings, parent, name) for name in names})
@@ -69,4 +69,4 @@ class Places:
 
 def _property(settings, parent, name):
     """A property of particles' settings, and one of the instancer."""
-    return None if settings is None else attribute_of((settings,), name), object_attribute(parent, name)
+    return None if settings is None else attribute_of((settings,), name), object_attribute(keyed(parent), name)

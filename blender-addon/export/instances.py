@@ -102,7 +102,7 @@ class Instances:
         with self._report.guard("Object", group.name, "it is left out"):
             entry.linking = linking(group.source.original, self.sets)
             self._put(number, entry)
-            return shares_of(group.source.original) if group.kept is None else ()
+            return shares_of(group.source) if group.kept is None else ()
         # Nothing takes its place, for others are known by their numbers.
         self._put(number, replace(entry, materials=[], transforms=entry.transforms[:0], values=NO_VALUES, linking=ALL))
         return ()

@@ -148,7 +148,7 @@ class Lights:
 
     def _described(self, group, key):
         """Adds the descriptions of a lamp's placements."""
-        shares = shares_of(group.source.original)
+        shares = shares_of(group.source)
         for place, matrix in enumerate(group.matrices):
             if np.isfinite(matrix).all():
                 found = describe(group, place, self._images, self._report)

@@ -4,6 +4,7 @@
 from functools import lru_cache
 
 from .gather import AS_MESH, HAIR, VOLUME
+from .object_attribute import keyed
 
 # By the owner of the setting: the entry of the table, where the setting stands, its values where nothing is asked for, and its name.
 SCENE = (
@@ -38,7 +39,7 @@ OTHER_PASSES = {"pass_render_time"}
 
 def of_scene(depsgraph, report):
     """Settings of the scene, its view layer and its world that have no effect."""
-    scene, layer = depsgraph.scene, depsgraph.view_layer
+    scene, layer = depsgraph.scene_eval, depsgraph.view_layer
     for kind, owner, settings in (("Scene", scene, SCENE), ("View Layer", layer, LAYER), ("World", scene.world, WORLD)):
         if owner is not None:
             if kind != "World":
@@ -80,7 +81,7 @@ def of_object(group, report):
     """Settings of an object, or of its lamp, that have no effect; hair has its object's."""
     if group.kind == HAIR:
         return
-    source, name = group.source.original, group.name
+    source, name = keyed(group.source), group.name
     _tell("Object", source, OBJECT, report, name)
     if group.kind == "LIGHT":
         _tell("Light", source.data, LIGHT, report)

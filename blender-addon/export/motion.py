@@ -11,6 +11,7 @@ from .fibres import KINDS as FIBRES
 from .gather import Walk
 from .moving_fibres import may_move as fibres_may_move
 from .moving_fibres import shapes_of
+from .object_attribute import keyed
 from .transforms import without_scale
 
 # Frames from the shutter's opening to the frame that is rendered, as a share of the time that it is open.
@@ -115,7 +116,7 @@ def _curve(render):
 
 def shares_of(thing):
     """The times at which an object's place is asked for, as shares of the shutter's; nothing where it is not to be blurred."""
-    cycles = getattr(thing, "cycles", None)
+    cycles = getattr(keyed(thing), "cycles", None)
     if not getattr(cycles, "use_motion_blur", True):
         return ()
     parts = 2 ** min(max(int(getattr(cycles, "motion_steps", 1)), 1), MOST_STEPS)
@@ -128,9 +129,9 @@ def cameras_of(scene):
     return ([] if scene.camera is None else [scene.camera]) + [thing for thing in others if thing != scene.camera]
 
 
-def camera_keys(camera, places, ends=()):
-    """The matrices of a camera at its times of the shutter, or at others that are given; nothing where it stands still."""
-    keys = [places[share].cameras.get(camera.session_uid) for share in ends or shares_of(camera)]
+def camera_keys(uid, shares, places):
+    """The matrices of a camera, by session_uid, at shares of the shutter's time; nothing where it stands still."""
+    keys = [places[share].cameras.get(uid) for share in shares]
     if not keys or any(key is None or not np.isfinite(key).all() for key in keys) or all((key == keys[0]).all() for key in keys):
         return []
     return [without_scale(key) for key in keys]
@@ -151,8 +152,15 @@ def keys_of(groups):
     return keys
 
 
-def places_at(engine, depsgraph, shutter, shares, part, ends=()):
-    """Matrices of everything at shares of the shutter's time; the frame is put back. Forms are those at each thing's own times, or at `ends`."""
+def form_shares(group):
+    """The times at which the form of a group's mesh, hair, curves or points is asked for; None where it keeps it."""
+    may_differ = fibres_may_move(group) if group.kind in FIBRES else may_change(group)
+    return shares_of(group.source) if may_differ else None
+
+
+def places_at(engine, depsgraph, shutter, shares, part, forms):
+    """Matrices of everything at shares of the shutter's time; the frame is put back. `forms` are the times at which forms are asked for, by
+    the keys of groups, as settings at the frame say: keyed ones may be others by then."""
     found = {}
     try:
         for share in sorted(shares):
@@ -163,30 +171,27 @@ def places_at(engine, depsgraph, shutter, shares, part, ends=()):
             cameras = cameras_of(depsgraph.scene)
             seen = {camera.session_uid: np.array(camera.evaluated_get(depsgraph).matrix_world, dtype=float) for camera in cameras}
             groups = {key: np.array(group.matrices) for key, group in zip(keys_of(walk.groups), walk.groups, strict=True)}
-            found[share] = Places(seen, groups, _forms(walk, share, depsgraph, ends))
+            found[share] = Places(seen, groups, _forms(walk, share, depsgraph, forms))
     finally:
         whole = floor(shutter.rests)
         engine.frame_set(whole, subframe=shutter.rests - whole)
     return found
 
 
-def _forms(walk, share, depsgraph, ends):
+def _forms(walk, share, depsgraph, asked):
     """What meshes, hair, curves and points look like that are asked for at this share of the time."""
     forms = {}
     for key, group in zip(keys_of(walk.groups), walk.groups, strict=True):
-        if share not in (ends or shares_of(group.source.original)):
+        if share not in asked.get(key, ()):
             continue
         with _Ignored():
-            if group.kind in FIBRES and fibres_may_move(group):
-                forms[key] = shapes_of(group, depsgraph.mode == "RENDER")
-            elif may_change(group):
-                forms[key] = form_of(group)
+            forms[key] = shapes_of(group, depsgraph.mode == "RENDER") if group.kind in FIBRES else form_of(group)
     return forms
 
 
 def forms_of(key, group, places, shutter, scene, ends=()):
     """What a group's mesh, or its hair, looks like at even times of the shutter; nothing where it keeps its form."""
-    shares = ends or shares_of(group.source.original)
+    shares = ends or shares_of(group.source)
     if shares and has_velocities(group):
         # Ways are straight: two times say all.
         speed = scene.render.fps / scene.render.fps_base

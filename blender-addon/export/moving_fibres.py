@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .gather import HAIR
+from .object_attribute import keyed
 from .strands import of_curves, of_points, of_system, systems
 
 NO_VALUES = frozenset()
@@ -28,8 +29,9 @@ class Shape:
 
 def may_move(group):
     """Whether the points of a group may lie elsewhere at another time."""
+    # What is modelled stands in the original: its data and its modifiers.
     source = group.source.original
-    if not getattr(getattr(source, "cycles", None), "use_deform_motion", True):
+    if not getattr(getattr(keyed(group.source), "cycles", None), "use_deform_motion", True):
         return False
     data = source.data
     if getattr(data, "shape_keys", None) is not None or source.parent_type == "ARMATURE":
@@ -37,7 +39,7 @@ def may_move(group):
     if group.kind != HAIR:
         return bool(source.modifiers) or _is_animated(data)
     others = any(modifier.type != "PARTICLE_SYSTEM" for modifier in source.modifiers)
-    return others or any(system.use_hair_dynamics for system in source.particle_systems)
+    return others or any(system.use_hair_dynamics for system in group.source.particle_systems)
 
 
 def _is_animated(data):

@@ -1,6 +1,26 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Properties of objects, and of other data-blocks, as attributes of materials."""
 
+# How paths begin that say where an object is.
+PLACES = ("location", "rotation", "scale", "delta_")
+
+
+def keyed(thing):
+    """An evaluated object where it has keyframes or drivers, else its original: edits of add-ons' settings and of custom properties do not
+    tag objects, so that evaluated copies may lag behind."""
+    animation = thing.original.animation_data
+    return thing.original if animation is None or all(path.startswith(PLACES) for path in _paths(animation)) else thing
+
+
+def _paths(animation):
+    """The paths of all that drivers, actions and strips animate; one of no name for strips."""
+    curves, action = list(animation.drivers), animation.action
+    if hasattr(action, "layers"):
+        curves += [curve for layer in action.layers for strip in layer.strips for bag in strip.channelbags for curve in bag.fcurves]
+    elif action is not None:
+        curves += action.fcurves
+    return [curve.data_path for curve in curves] + [""] * len(animation.nla_tracks)
+
 
 def object_attribute(source, name):
     """A property of an object, or of its data, by the path that Blender's Attribute node takes; as a colour, None if there is none."""

@@ -74,9 +74,11 @@ def settings(depsgraph, *, width, height, crop, preview, passes, aspect=(1.0, 1.
         arguments["noise_threshold"] = 0.0
     if preview and ask("use_preview_direct_light", False):
         arguments.update(max_diffuse_bounces=0, max_glossy_bounces=0)
-    if scene.world is not None and "ambient_occlusion" in passes:
-        arguments["occlusion_distance"] = float(scene.world.light_settings.distance)
-    mist = scene.world.mist_settings if scene.world is not None else None
+    # The original world has no keyed values while an animation is rendered; the scene has.
+    world = depsgraph.scene_eval.world
+    if world is not None and "ambient_occlusion" in passes:
+        arguments["occlusion_distance"] = float(world.light_settings.distance)
+    mist = world.mist_settings if world is not None else None
     if mist is not None and "mist" in passes:
         arguments["mist"] = (float(mist.start), float(mist.depth), FALLOFFS[mist.falloff])
     return arguments

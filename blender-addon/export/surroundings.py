@@ -43,10 +43,10 @@ class Surroundings:
             return None
         if key.startswith(OBJECT):
             return self._to_object(int(key.removeprefix(OBJECT)))
-        layer, scene = self._depsgraph.view_layer, self._depsgraph.scene
+        layer, scene, world = self._depsgraph.view_layer, self._depsgraph.scene, self._depsgraph.scene_eval.world
         if key == OCCLUSION:
-            return None if scene.world is None else scene.world.light_settings.distance
-        return attribute_of((layer, scene, scene.world), key.removeprefix(LAYER))
+            return None if world is None else world.light_settings.distance
+        return attribute_of((layer, scene, world), key.removeprefix(LAYER))
 
     def _to_object(self, uid):
         if self._objects is None:

@@ -135,7 +135,7 @@ def _baked(dense, shining, grids, told):
     """Everything else, point by point where these are not too many; else by the plain grid."""
     lattice = lattice_of(dense.grids | shining.grids or grids.unasked, grids)
     if lattice is None:
-        return _plain(dense, grids, told)
+        return _plain(dense, shining, grids, told)
     made = bake(dense, shining, lattice, grids)
     glow, heat = None, made.heat
     if len(shining.grids) == 1 and not shining.places and grids.is_scalar(*shining.grids):
@@ -159,7 +159,7 @@ def lattice_of(names, grids):
     return None if max(counts.values()) > MOST else grids.dense(max(counts, key=lambda name: (counts[name], name)))
 
 
-def _plain(dense, grids, told):
+def _plain(dense, shining, grids, told):
     """The density's own grid in the place of what is made of it."""
     names = sorted(dense.grids, key=lambda name: (not grids.is_scalar(name), name)) or sorted(shining.grids)
     (unit,) = dense.at(np.ones(1))

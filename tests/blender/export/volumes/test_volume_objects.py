@@ -139,6 +139,30 @@ def test_noise_varies_with_the_place(tmp_path):
 
 
 @pytest.mark.blender
+def test_what_shines_alone_over_too_many_voxels_does_not_and_is_told(tmp_path):
+    from unittest.mock import patch
+
+    from clouds import attribute, ball, cloud, exported, filled, stored
+    from recorder import empty, module
+
+    empty()
+    made, tree, shader = filled("Emission")
+    product = tree.nodes.new("ShaderNodeMath")
+    product.operation = "MULTIPLY"
+    for name, socket in zip(("density", "heat"), product.inputs, strict=False):
+        tree.links.new(attribute(tree, name), socket)
+    tree.links.new(product.outputs[0], shader.inputs["Strength"])
+    cloud(stored(tmp_path / "fire.vdb", density=ball(), heat=2.0 * ball()), made)
+    _, scene, lines = exported()
+    assert not lines and any(scene.materials[0]["medium"]["emission"])
+    with patch.object(module("export.volumes.filling"), "MOST", 100):
+        _, scene, lines = exported()
+    assert len(lines) == 1 and "voxels" in lines[0], lines
+    medium = scene.materials[0]["medium"]
+    assert not any(medium["scattering"]) and not any(medium["absorption"]) and not any(medium["emission"])
+
+
+@pytest.mark.blender
 def test_a_missing_file_is_told(tmp_path):
     from clouds import cloud, exported
     from recorder import empty
