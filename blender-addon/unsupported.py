@@ -42,6 +42,16 @@ OBJECTS = {
         "smooth between points; the mesh stands still at the frame; clear there",
     ),
     "volume holdout": Limit("Volume objects as holdouts", "seen as others are"),
+    "volume visibility": _untold(
+        "Ray visibility of objects that hold volumes, for rays that start inside", "they go through the volume as others do, and do not see its end"
+    ),
+    "volume groups": _untold(
+        "Light groups of what volumes and worlds' haze send", "in no group, told where one is asked for: the groups add up to the picture without it"
+    ),
+    "open volumes": _untold(
+        "Volumes of meshes that are open, or whose normals look inwards, before nothing",
+        "endless, as deep as they look; Cycles leaves them off rays that meet nothing",
+    ),
     "volume extent": _untold(
         "Emission of volume objects where their grids hold nothing", "it ends a voxel beyond what they hold; in Cycles with blocks of 8³ voxels"
     ),
