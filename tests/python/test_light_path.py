@@ -4,6 +4,7 @@ import gonio
 import numpy as np
 import pytest
 from small_scenes import FLOOR, QUAD, above, at, finished, floor_scene
+from test_media import box
 
 BELOW = [[1, 0, 0, 0], [0, 0, -1, 1], [0, 1, 0, 0], [0, 0, 0, 1]]
 
@@ -83,3 +84,16 @@ def test_shadow_rays_pass_what_is_open_to_them_alone():
     open_slab, closed, none = (shaded(weight) for weight in ({"Node": [1, "R"]}, {"Constant": [1.0] * 4}, {"Constant": [0.0] * 4}))
     assert closed < 1e-3 * none
     assert open_slab == pytest.approx(none, rel=0.02)
+
+
+@pytest.mark.parametrize(("value", "shines"), [("IsVolumeScatterRay", True), ("IsGlossyRay", False), ("IsReflectionRay", False), ("IsDiffuseRay", False)])
+def test_rays_from_a_medium(value, shines):
+    """A ceiling over fog that shines by what the ray is: those that fog sends are of their own kind."""
+    scene = gonio.Scene()
+    scene.set(width=8, height=8, samples=64)
+    nodes = [{"operation": {"LightPath": value}, "inputs": []}]
+    glow = {"weight": {"Constant": [1.0] * 4}, "model": "Emission", "parameters": [["emission_color", {"Node": [0, "Rgb"]}]]}
+    scene.add_instance(scene.add_mesh(FLOOR, QUAD), [scene.put_material({"closures": [glow], "graph": {"nodes": nodes}})], transform=at(0, 4, 0))
+    box(scene, (-3.0, 0.0, -3.0), (3.0, 2.0, 3.0), scattering=0.5)
+    scene.add_camera(above(3), fov=20)
+    assert (np.asarray(finished(scene)["color"])[..., :3].mean() > 0.0) == shines
