@@ -33,6 +33,22 @@ def test_a_meter_sees_what_the_panel_is_of(name):
     assert not found.diagnostics
 
 
+@pytest.mark.parametrize("weight", [1.0, 0.5])
+def test_mixes_do_not_shift_spectra(weight):
+    """Materials of several closures before the panel's, and a panel that is one of weights."""
+    made = gonio.Scene()
+    half = {"weight": {"Constant": [0.5] * 4}, "model": "Diffuse"}
+    made.put_material({"origin": "mix", "closures": [half, half]})
+    lamp = gonio.illuminant("FL11")
+    glow = {"weight": {"Constant": [weight] * 4}, "model": "Emission", "parameters": [["emission_color", {"Constant": [1000.0] * 4}]]}
+    shining = {"origin": "glow", "closures": [glow], "spectrum": {key: lamp[key] for key in ("name", "wavelengths_nm", "power")}}
+    points = np.array([[-0.5, -0.5, 2], [-0.5, 0.5, 2], [0.5, 0.5, 2], [0.5, -0.5, 2]], "f4")
+    made.add_instance(made.add_mesh(points, np.array([[0, 1, 2], [0, 2, 3]], "i4")), [made.put_material(shining)])
+    found = measured(made, *QUANTITIES, "melanopic-edi", "illuminance").meters
+    assert_figures(found[:5], figures_of("FL11"))
+    assert found[5].value / found[6].value == pytest.approx(figures_of("FL11")["melanopic_der"], rel=0.01)
+
+
 def test_the_luminance_stays():
     """Colours count by their luminance alone, with wavelengths and without."""
     nits = (700.0, 1000.0, 1900.0)

@@ -162,7 +162,7 @@ pub(super) fn compile(
         let instance = light_instances.1[light - first_triangle as usize];
         let material = geometry.material(instance, light as u32 - triangle_lights[instance as usize]);
         // What programs know has its spectrum already.
-        if kept.records[light].shaded { 0 } else { spectra.number_of_material(material as usize) }
+        if kept.records[light].shaded { 0 } else { probe.tables.materials.spectrum(material) }
     });
     Ok(CompiledLights { table, kept, instances, instance_light, of_light: light_of, triangle_lights, light_instances, groups, linking })
 }

@@ -147,6 +147,10 @@ impl MaterialTable {
     pub fn is_solid(&self, number: u32) -> bool {
         self.closures(number).iter().any(|closure| closure.surface.is_solid())
     }
+    /// The number of the spectrum of what a material of the geometry sends, counted from 1; 0 is none. Its closures have one.
+    pub fn spectrum(&self, number: u32) -> u32 {
+        self.closures(number).first().map_or(0, |closure| closure.surface.spectrum)
+    }
     /// The row of the solid that a material of the geometry covers, 0 where it does not scatter; of a mix that of its first closure with one.
     pub fn solid_medium(&self, number: u32) -> u32 {
         self.closures(number).iter().find_map(|closure| closure.solid_medium).unwrap_or(0)

@@ -47,6 +47,8 @@ fn before_boundary<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &mut Vertex<L>,
     let l = chunk.l;
     let Some([instance, primitive]) = chunk.paths.rays.passed.last(l, point.path) else { return };
     let touching = point.alive & instance.ne(NONE) & distance.le(point.at.error.abs() * TOUCHING);
+    // Where catchers alone are there is nothing that stands on them.
+    let touching = touching.and_not(catcher::arrives_alone(point.core.flags, point.core.slot));
     let (instances, primitives) = (instance.to_array(), primitive.to_array());
     let mut bits = touching.bits();
     while bits != 0 {

@@ -193,6 +193,8 @@ pub(crate) fn send_on<L: Lanes>(
         start_walks(point, wi, throughput, medium, entered, walks);
     }
     let survival = survival(chunk.sample.depth, throughput * point.core.unguided, sample.diffuse);
+    // What the camera sees straight ahead covers what is behind, however dark.
+    let survival = (sample.straight & (point.core.flags & flag::CAMERA).ne(0)).select(l.f(1.0), survival);
     alive &= u_roulette.lt(survival);
     let throughput = throughput * survival.recip();
     if !alive.any() {
