@@ -5,7 +5,7 @@ geometry nodes that have them, properties of the outermost instancer, of the obj
 import numpy as np
 
 from .instance_trail import Trails
-from .object_attribute import attribute_of, keyed, object_attribute
+from .object_attribute import attribute_of, object_attribute
 
 # Names of values that an instancer gives; the object's own where it gives none.
 PREFIX = "instancer "
@@ -69,4 +69,4 @@ class Places:
 
 def _property(settings, parent, name):
     """A property of particles' settings, and one of the instancer."""
-    return None if settings is None else attribute_of((settings,), name), object_attribute(keyed(parent), name)
+    return None if settings is None else attribute_of((settings,), name), object_attribute(parent, name)

@@ -84,7 +84,7 @@ def of_object(group, report):
     source, name = keyed(group.source), group.name
     _tell("Object", source, OBJECT, report, name)
     if group.kind == "LIGHT":
-        _tell("Light", source.data, LIGHT, report)
+        _tell("Light", keyed(group.source.data), LIGHT, report)
         if not source.is_shadow_catcher:
             report.tell("catcher's lamp", "Object", name)
     elif group.kind not in SHOWN and group.kind not in AS_MESH:

@@ -6,9 +6,11 @@ PLACES = ("location", "rotation", "scale", "delta_")
 
 
 def keyed(thing):
-    """An evaluated object where it has keyframes or drivers, else its original: edits of add-ons' settings and of custom properties do not
-    tag objects, so that evaluated copies may lag behind."""
-    animation = thing.original.animation_data
+    """An evaluated object, or its data, where it has keyframes or drivers, else its original: edits of add-ons' settings and of custom properties
+    do not tag objects, so that evaluated copies may lag behind."""
+    if thing is None:
+        return None
+    animation = getattr(thing.original, "animation_data", None)
     return thing.original if animation is None or all(path.startswith(PLACES) for path in _paths(animation)) else thing
 
 
@@ -23,8 +25,8 @@ def _paths(animation):
 
 
 def object_attribute(source, name):
-    """A property of an object, or of its data, by the path that Blender's Attribute node takes; as a colour, None if there is none."""
-    return attribute_of((source, source.data), name)
+    """A property of an evaluated object, or of its data, by the path that Blender's Attribute node takes; as a colour, None if there is none."""
+    return attribute_of((keyed(source), keyed(source.data)), name)
 
 
 def attribute_of(things, name):
