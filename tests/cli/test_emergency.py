@@ -234,6 +234,7 @@ def test_lamps_of_an_instancer_are_told_apart(tmp_path, run):
 """
     found = figures(run, written(tmp_path, instancer))["luminaires"]
     assert [lit["height_m"] for lit in found] == pytest.approx([2, 3, 4])
+    assert [lit["name"].partition("[")[2] for lit in found] == ["0]", "1]", "2]"]
     assert [lit["peak_cd"] for lit in found] == pytest.approx([100] * 3, rel=1e-3)
 
 

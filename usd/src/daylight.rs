@@ -34,12 +34,18 @@ pub(crate) fn add_lights<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, 
     if let Err(error) = added {
         return context.warn(&prim.origin(), format!("{error}; there is no daylight"));
     }
+    if own.quantity.is_some() || own.spectrum.is_some() {
+        context.warn(&prim.origin(), "a quantity and a spectrum say nothing of daylight, which has its own; they are ignored");
+    }
     for added in &mut context.scene.lights[first..] {
-        // A dome's own strength and visibility hold for its sky and its sun.
+        // A dome's own strength, visibility and group hold for its sky and its sun.
         let radiance = added.emission.radiance;
         added.emission.radiance = std::array::from_fn(|i| radiance[i] * own.emission.radiance[i]);
         added.visibility = own.visibility;
         added.casts_shadow = own.casts_shadow;
+        (added.diffuse, added.specular, added.volume) = (own.diffuse, own.specular, own.volume);
+        added.dimming *= own.dimming;
+        added.group.clone_from(&own.group);
         added.origin = prim.origin();
         added.transform = transform.after(&added.transform);
     }

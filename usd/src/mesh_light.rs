@@ -26,7 +26,9 @@ pub(crate) fn material<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, bo
         return bound;
     };
     let square_metres = area.map(|area| area * context.metres_per_unit.powi(2));
-    let spectrum = lamp_spectrum(context, prim);
+    let mode: String = context.get(prim, "light:materialSyncMode").unwrap_or_default();
+    let of_material = context.scene.materials.get(bound.index()).and_then(|base| base.spectrum.clone());
+    let spectrum = lamp_spectrum(context, prim).or(of_material.filter(|_| mode != "noMaterialResponse"));
     let efficacy = spectrum.as_ref().and_then(|spectrum| spectrum.lumens_per_watt()).unwrap_or(LUMENS_PER_WATT);
     if let Some(luminance) = photometry::of_mesh(context, prim, square_metres, efficacy) {
         let tint = tint(context, prim);
@@ -51,14 +53,17 @@ pub(crate) fn material<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, bo
     if prim.has_authored_prefix("inputs:shaping:") {
         context.unsupported("shaping of mesh lights", &origin);
     }
-    let mode: String = context.get(prim, "light:materialSyncMode").unwrap_or_default();
     let Some(base) = context.scene.materials.get(bound.index()) else {
         return bound;
     };
     let mut material = if mode == "noMaterialResponse" { Material::diffuse(origin.clone(), [0.0; 3]) } else { base.clone() };
-    material.origin = origin;
+    let base_shines = material.shines();
+    material.origin = origin.clone();
     emit(&mut material, radiance, mode != "independent");
-    material.spectrum = spectrum.or(material.spectrum);
+    if mode == "independent" && spectrum.is_some() && base_shines {
+        context.warn(&origin, "the light's spectrum is that of what its material sends, too");
+    }
+    material.spectrum = spectrum;
     context.scene.add_material(material)
 }
 

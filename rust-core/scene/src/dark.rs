@@ -47,7 +47,8 @@ impl Material {
     /// Whether its surface shines by itself, or takes light away.
     pub fn shines(&self) -> bool {
         let sends = |input: Input| !matches!(input, Input::Constant(colour) if colour[..3].iter().all(|part| *part == 0.0));
-        self.closures.iter().filter_map(|closure| closure.input("emission_color")).any(sends)
+        let counts = self.closures.iter().filter(|closure| sends(closure.weight));
+        counts.filter_map(|closure| closure.input("emission_color")).any(sends)
     }
 }
 

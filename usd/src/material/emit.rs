@@ -63,6 +63,9 @@ pub(in crate::material) fn multiply(graph: &mut Graph, a: Input, b: Input) -> In
     if is_constant(b, 1.0) {
         return a;
     }
+    if is_all(a, 0.0) || is_all(b, 0.0) {
+        return Input::Constant([0.0; 4]);
+    }
     binary(graph, Operation::Multiply, a, b)
 }
 

@@ -58,22 +58,44 @@ fn seen(scene: &Scene, burning: &[usize], plan: &Plan, up: [f64; 3]) -> Vec<Lamp
     let floor = corners.map(|corner| along(*corner)).fold(f64::INFINITY, f64::min);
     let floor = if floor.is_finite() { floor } else { 0.0 };
     let lamps = lamps(scene, burning);
-    let mut lamp_of = vec![None; scene.lights.len()];
-    lamps.iter().enumerate().for_each(|(lamp, lights)| lights.iter().for_each(|light| lamp_of[*light] = Some(lamp)));
     let evenly = directions(plan.glare(up), up);
-    let asked: Vec<Vec<[f64; 3]>> = lamps.iter().map(|lights| [&evenly[..], &stated(scene, lights, plan.glare(up), up)].concat()).collect();
-    let intensities = luminous_intensities(scene, |light| lamp_of[light].map_or_else(Vec::new, |lamp| asked[lamp].clone()));
+    let peaks = peaks(scene, &lamps, |lights| [&evenly[..], &stated(scene, lights, plan.glare(up), up)].concat());
     let mut seen = Vec::new();
-    for (lights, asked) in lamps.iter().zip(&asked) {
-        let mut sum = vec![0.0; asked.len()];
-        let known = lights.iter().filter_map(|light| intensities.get(*light)?.as_ref());
-        let count = known.map(|found| sum.iter_mut().zip(found).for_each(|(sum, part)| *sum += part)).count();
+    for (lights, peak_cd) in lamps.iter().zip(peaks) {
         let light = &scene.lights[lights[0]];
-        // A picture over a light leaves no intensity to tell.
-        let peak_cd = (count == lights.len()).then(|| sum.into_iter().fold(0.0, f64::max));
-        seen.push(Lamp { name: light.origin.name.to_string(), height: along(light.transform.point([0.0; 3])) - floor, peak_cd });
+        let name = &light.origin.name;
+        // Placements of an instancer have one name.
+        let name = match lamps.iter().filter(|other| scene.lights[other[0]].origin.name == *name).count() {
+            1 => name.to_string(),
+            _ => format!("{name}[{}]", seen.iter().filter(|lamp: &&Lamp| lamp.name.starts_with(&format!("{name}["))).count()),
+        };
+        seen.push(Lamp { name, height: along(light.transform.point([0.0; 3])) - floor, peak_cd });
     }
     seen
+}
+
+/// The greatest intensity of each luminaire in the directions that are asked of its lights, cd: they add up. None where a picture over a light leaves no
+/// intensity to tell.
+fn peaks(scene: &Scene, lamps: &[Vec<usize>], asked: impl Fn(&[usize]) -> Vec<[f64; 3]>) -> Vec<Option<f64>> {
+    let mut lamp_of = vec![None; scene.lights.len()];
+    lamps.iter().enumerate().for_each(|(lamp, lights)| lights.iter().for_each(|light| lamp_of[*light] = Some(lamp)));
+    let mut sums: Vec<Vec<f64>> = vec![Vec::new(); lamps.len()];
+    let mut left: Vec<usize> = lamps.iter().map(Vec::len).collect();
+    luminous_intensities(scene, |light, intensity| {
+        let Some(lamp) = lamp_of[light] else { return };
+        let (sum, found) = (&mut sums[lamp], asked(&lamps[lamp]).into_iter().map(intensity));
+        if sum.is_empty() {
+            sum.extend(found);
+        } else {
+            sum.iter_mut().zip(found).for_each(|(sum, part)| *sum += part);
+        }
+        left[lamp] -= 1;
+        if left[lamp] == 0 {
+            // Files of many angles and many luminaires would fill the memory.
+            *sum = vec![sum.iter().copied().fold(0.0, f64::max)];
+        }
+    });
+    sums.into_iter().zip(left).map(|(sum, left)| sum.first().copied().filter(|_| left == 0)).collect()
 }
 
 /// Numbers of the lights of each luminaire, by name: those of one prim that stand within a millimetre.

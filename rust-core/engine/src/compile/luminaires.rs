@@ -18,12 +18,12 @@ pub fn luminous_fluxes(scene: &Scene) -> Vec<Option<f64>> {
     of_luminaires(scene, |_, records, goniograms, far_fields| quantity::flux_of(records, goniograms, far_fields))
 }
 
-/// Luminous intensities in cd, dimming included, of each of the scene's lights as [`luminous_fluxes`] has them, towards the directions of length 1 that are
-/// asked of it, by its number.
-pub fn luminous_intensities(scene: &Scene, asked: impl Fn(usize) -> Vec<[f64; 3]>) -> Vec<Option<Vec<f64>>> {
+/// What `asked` makes of the luminous intensity of each of the scene's lights that [`luminous_fluxes`] knows, by its number: cd, dimming included, towards a
+/// direction of length 1.
+pub fn luminous_intensities<T>(scene: &Scene, mut asked: impl FnMut(usize, &dyn Fn([f64; 3]) -> f64) -> T) -> Vec<Option<T>> {
     of_luminaires(scene, |number, records, goniograms, _| {
         let far_field = FarField::new(records, &goniograms.tables);
-        asked(number).iter().map(|direction| far_field.in_direction(*direction)[0]).collect()
+        asked(number, &|direction| far_field.in_direction(direction)[0])
     })
 }
 

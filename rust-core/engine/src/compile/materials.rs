@@ -28,6 +28,8 @@ use parameters::{WEIGHT, tell_weights};
 use program::{CompiledGraph, asks_for_ray, compile_graph, sampled_program};
 pub(super) use spectrum::emission_of_colour;
 
+/// Nodes that a graph may have: their numbers are of two bytes.
+const MOST_NODES: usize = 1 << 16;
 /// Reflectance of surfaces without a material, and of measured ones without a measurement.
 const DEFAULT_REFLECTANCE: [f32; 3] = [0.18; 3];
 
@@ -50,6 +52,9 @@ pub(super) fn compile(
         if let Some(node) = nodes_of(material).find(|node| usize::from(node.0) >= material.graph.nodes.len()) {
             let problem = format!("the material refers to node {} of its graph, which does not exist", node.0);
             return Err(Error::scene(&material.origin, problem));
+        }
+        if spectra.number_of_material(number) != 0 && material.graph.nodes.len() + 2 * material.closures.len() > MOST_NODES {
+            return Err(Error::scene(&material.origin, "the graph has no room left for the nodes of its spectrum"));
         }
         let coloured = spectra.coloured_material(number, material);
         let material = coloured.as_ref().unwrap_or(material);

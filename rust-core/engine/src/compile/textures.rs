@@ -47,11 +47,14 @@ impl CompiledTextures {
             image.rgb.chunks_exact(3).for_each(|pixel| (0..3).for_each(|k| sum[k] += f64::from(pixel[k])));
             sum.map(|sum| (sum / (image.rgb.len() / 3).max(1) as f64) as f32)
         };
-        let of_light = |(light, number): (&Light, &Option<u32>)| {
-            let image = number.filter(|_| is_luminaire(light)).and_then(|number| self.of_lights.get(number as usize));
-            image.map(|image| mean(image))
+        // Each once, however many lights have it.
+        let mut means: Vec<Option<[f32; 3]>> = vec![None; self.of_lights.len()];
+        let mut of_light = |(light, number): (&Light, &Option<u32>)| {
+            let number = number.filter(|_| is_luminaire(light))? as usize;
+            let image = self.of_lights.get(number)?;
+            Some(*means[number].get_or_insert_with(|| mean(image)))
         };
-        scene.lights.iter().zip(&self.light_numbers).map(of_light).collect()
+        scene.lights.iter().zip(&self.light_numbers).map(&mut of_light).collect()
     }
 }
 

@@ -35,6 +35,10 @@ impl Asked {
                     let problem = format!("'{}' measures the daylight factor, which no dimming changes", target.area);
                     return Err(Error::setting("target", problem));
                 }
+                Measurand::Cct | Measurand::Duv | Measurand::Ra | Measurand::Rf | Measurand::Rg => {
+                    let problem = format!("'{}' measures a colour, which is no sum of what the groups bring", target.area);
+                    return Err(Error::setting("target", problem));
+                }
                 _ => asked.light.push(target),
             }
         }

@@ -45,7 +45,8 @@ fn without_spectra(scene: &Scene) -> impl Iterator<Item = &Light> {
 
 /// Materials of surfaces that shine without a spectrum.
 fn surfaces_without_spectra(scene: &Scene) -> impl Iterator<Item = &Material> {
-    let used = scene.instances.iter().flat_map(|set| &set.materials).filter_map(|id| scene.materials.get(id.index()));
+    let placed = scene.instances.iter().filter(|set| !set.transforms.is_empty());
+    let used = placed.flat_map(|set| &set.materials).filter_map(|id| scene.materials.get(id.index()));
     used.filter(|material| material.spectrum.is_none() && material.shines())
 }
 
