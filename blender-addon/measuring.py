@@ -188,9 +188,11 @@ def _tabular(reading) -> list[str]:
 
 
 def _left_out(coverage) -> list[str]:
-    """What glare ratings leave out, since CIE 117 has no position index for it."""
+    """What glare ratings leave out, since it is seen through glass or covers alone, or CIE 117 has no position index for it."""
+    covered = sum(1 for point in coverage if point.covered)
+    lines = [f"Left out behind glass or covers at {covered} points"] if covered else []
     points = [point for point in coverage if point.left_out]
     if not points:
-        return []
+        return lines
     most, share = max(point.left_out for point in points), max(point.share_left_out for point in points)
-    return [f"Left out (CIE 117) at {len(points)} points:", f"up to {most} sources, {100 * share:.0f} % of their light"]
+    return [*lines, f"Left out (CIE 117) at {len(points)} points:", f"up to {most} sources, {100 * share:.0f} % of their light"]

@@ -54,6 +54,7 @@ class GONIO_OT_measure_grids(OnGrids, bpy.types.Operator):
         return self._go(context, self._meter.grids, self.samples)
 
     def _publish(self, context, meter, found):
+        meter.report.add_render(found.diagnostics)
         report.publish(meter.report)
         measuring.latest.grids = {reading.name: reading for reading in found.grids}
         _write_text("Gonio grids.csv", found.csv())

@@ -287,6 +287,33 @@ def test_observers_on_grids_rate_the_lamps():
 
 
 @pytest.mark.blender
+def test_lamps_behind_glass_are_told_and_not_rated():
+    import importlib
+
+    import bpy
+    import scenes
+
+    scenes.lit_floor()
+    measuring, report = (importlib.import_module(f"gonio_extension.{name}") for name in ("measuring", "report"))
+    bpy.data.objects.remove(bpy.data.objects["Floor"])
+    bpy.ops.mesh.primitive_plane_add(size=1.0, location=(0, -2, 1))
+    plane = bpy.context.object
+    plane.gonio.is_grid, plane.gonio.is_grid_only, plane.gonio.grid_spacing, plane.gonio.grid_quantity = True, True, 1.0, "ugr"
+    bpy.ops.mesh.primitive_uv_sphere_add(radius=0.3, location=bpy.data.objects["Lamp"].location)
+    glass = bpy.data.materials.new("Glass")
+    glass.use_nodes = True
+    tree = glass.node_tree
+    tree.nodes.clear()
+    shader, end = tree.nodes.new("ShaderNodeBsdfGlass"), tree.nodes.new("ShaderNodeOutputMaterial")
+    tree.links.new(shader.outputs[0], end.inputs["Surface"])
+    bpy.context.object.data.materials.append(glass)
+    assert bpy.ops.gonio.measure_grids(samples=64) == {"FINISHED"}
+    lines = measuring.grid_lines(measuring.latest.grids[plane.name])
+    assert any("behind glass or covers at 1 points" in line for line in lines), lines
+    assert report.latest().diagnostics, "what the engine says of the measurement is in the panel"
+
+
+@pytest.mark.blender
 def test_false_colour_is_a_pass_of_final_renders(tmp_path: Path):
     import numpy
     import scenes
