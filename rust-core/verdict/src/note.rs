@@ -25,6 +25,10 @@ pub(crate) enum Note {
     RatioOfMeans,
     /// A rating of glare leaves sources out, with this share of their light.
     LeftOut { count: u64, share: f64 },
+    /// Luminaires behind glass or covers are not rated at so many points.
+    Covered(usize),
+    /// What the command said of its figures, in its words.
+    Told(String),
     /// So many points were not measured.
     Missing(usize),
     /// So many times the samples would settle it; infinite where the figure is on the limit.
@@ -60,6 +64,8 @@ impl Note {
             Self::ErrorsAdded => words.errors_added.clone(),
             Self::RatioOfMeans => words.ratio_of_means.clone(),
             Self::LeftOut { count, share } => fill(&words.left_out, &[("count", &count.to_string()), ("percent", &of_share(*share))]),
+            Self::Covered(count) => fill(&words.covered, &[("count", &count.to_string())]),
+            Self::Told(words) => words.clone(),
             Self::Missing(count) => fill(&words.missing_points, &[("count", &count.to_string())]),
             Self::MoreSamples { times, interval, error, unit } => {
                 let told = if *times > FAR {

@@ -60,6 +60,7 @@ pub(crate) struct Words {
     pub(crate) errors_added: String,
     pub(crate) ratio_of_means: String,
     pub(crate) left_out: String,
+    pub(crate) covered: String,
     pub(crate) missing_points: String,
     pub(crate) interval: String,
     pub(crate) more_samples: String,

@@ -1,6 +1,7 @@
 //! What has figures, and what a figure is.
 
 use crate::{estimate::Estimate, names::spelt, note::Note, plan::Plan, unit::Unit};
+use serde_json::{Map, Value};
 
 /// A figure of an area.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,4 +52,13 @@ impl Area {
     pub(super) fn new(name: &str, file: usize) -> Self {
         Self { name: name.to_owned(), aliases: Vec::new(), file, figures: Vec::new(), plans: Vec::new() }
     }
+}
+
+/// Areas whose figures have the notes of their file.
+pub(super) fn with_notes(mut areas: Vec<Area>, whole: &Map<String, Value>) -> Vec<Area> {
+    let told = whole.get("notes").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_str);
+    let notes: Vec<Note> = told.map(|words| Note::Told(words.to_owned())).collect();
+    let figures = areas.iter_mut().flat_map(|area| &mut area.figures);
+    figures.for_each(|figure| figure.notes.extend(notes.iter().cloned()));
+    areas
 }

@@ -1,7 +1,7 @@
 //! What `gonio emergency` prints: routes, open areas, places and luminaires.
 
 use super::{
-    area::{Area, Figure},
+    area::{Area, Figure, with_notes},
     lit::{figures, lux},
     object::{Found, error, number, objects, text},
 };
@@ -39,5 +39,5 @@ pub(super) fn read(whole: &Map<String, Value>, file: usize) -> Found<Vec<Area>> 
         let figures = vec![figure("peak_cd", "cd"), figure("height_m", "m")];
         areas.push(Area { figures, ..Area::new(text(of, "name", "a luminaire")?, file) });
     }
-    Ok(areas)
+    Ok(with_notes(areas, whole))
 }

@@ -32,7 +32,8 @@ fn meter(of: &Map<String, Value>, file: usize) -> Found<Area> {
     let mut figure = Figure::new(&quantity, value, unit(of, &quantity));
     figure.of = Some(quantity.clone());
     figure.aliases = vec!["mean".to_owned(), "value".to_owned()];
-    figure.notes = without_error(value).into_iter().chain(left_out(of.get("ugr_coverage"))).collect();
+    let coverage = of.get("ugr_coverage");
+    figure.notes = without_error(value).into_iter().chain(left_out(coverage)).chain(covered(coverage.into_iter())).collect();
     area.figures.push(figure);
     area.figures.extend(beside(&quantity, of)?);
     if let Some(as_in_tables) = of.get("ugr_as_in_tables").and_then(Value::as_object) {
@@ -67,17 +68,30 @@ fn grid(of: &Map<String, Value>, file: usize) -> Found<Area> {
         || greatest.filter(|_| !is_of_colour(&quantity)).map(Estimate::relative).filter(|share| *share > NOISY).map(Note::GreatestIsHigh);
     let missing = || of.get("values").and_then(Value::as_array).map(|values| values.iter().filter(|value| value.is_null()).count());
     let missing = missing().filter(|count| *count > 0).map(Note::Missing);
+    let behind = covered(of.get("ugr_coverage").and_then(Value::as_array).into_iter().flatten());
     let (of_mean, of_greatest) =
         if glare { (vec![], vec!["max", "greatest", "ugr"]) } else { (vec![quantity.as_str()], vec!["max", "greatest"]) };
     let of_mean: Vec<&str> = of_mean.into_iter().chain(["average", "em"]).collect();
     let mut figures = vec![
         add("mean", &of_mean, mean, &own, missing.clone().into_iter().collect()),
-        add("minimum", &["min", "least"], least, &own, low().into_iter().chain(missing).collect()),
-        add("maximum", &of_greatest, greatest, &own, high().into_iter().chain(worst_left_out(of)).collect()),
+        add("minimum", &["min", "least"], least, &own, low().into_iter().chain(missing.clone()).collect()),
+        add(
+            "maximum",
+            &of_greatest,
+            greatest,
+            &own,
+            high().into_iter().chain(worst_left_out(of)).chain(behind).chain(missing.clone()).collect(),
+        ),
     ];
     if amount {
-        figures.push(add("uniformity", &["u0", "uo", "uniformity_u0"], ratio(least, mean), &Unit::share(), low().into_iter().collect()));
-        let both = low().into_iter().chain(high()).collect();
+        figures.push(add(
+            "uniformity",
+            &["u0", "uo", "uniformity_u0"],
+            ratio(least, mean),
+            &Unit::share(),
+            low().into_iter().chain(missing.clone()).collect(),
+        ));
+        let both = low().into_iter().chain(high()).chain(missing).collect();
         figures.push(add("diversity", &["ud", "diversity_ud"], ratio(least, greatest), &Unit::share(), both));
     }
     area.figures = figures;
@@ -107,6 +121,12 @@ fn left_out(coverage: Option<&Value>) -> Option<Note> {
     let coverage = coverage?.as_object()?;
     let count = coverage.get("left_out")?.as_u64().filter(|count| *count > 0)?;
     Some(Note::LeftOut { count, share: number(coverage, "share_left_out")? })
+}
+
+/// At how many points luminaires are seen through glass or covers alone.
+fn covered<'a>(coverage: impl Iterator<Item = &'a Value>) -> Option<Note> {
+    let is_covered = |coverage: &&Value| coverage.get("behind_covers").and_then(Value::as_u64).is_some_and(|count| count > 0);
+    Some(coverage.filter(is_covered).count()).filter(|count| *count > 0).map(Note::Covered)
 }
 
 /// That of the point which leaves out most.

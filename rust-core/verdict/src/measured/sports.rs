@@ -1,7 +1,7 @@
 //! What `gonio sports` prints: fields with what lights them towards cameras, and observers.
 
 use super::{
-    area::{Area, Figure},
+    area::{Area, Figure, with_notes},
     lit::{estimate, figures},
     object::{Found, objects, text},
 };
@@ -30,7 +30,7 @@ pub(super) fn read(whole: &Map<String, Value>, file: usize) -> Found<Vec<Area>> 
     for observer in objects(whole, "observers")? {
         areas.push(Area { figures: vec![rating(observer)?], ..Area::new(text(observer, "name", "an observer")?, file) });
     }
-    Ok(areas)
+    Ok(with_notes(areas, whole))
 }
 
 fn rating(of: &Map<String, Value>) -> Found<Figure> {

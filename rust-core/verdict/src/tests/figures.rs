@@ -146,3 +146,20 @@ fn what_is_not_there_is_told_with_what_is() {
     let no_quantity = told(&one("area = 'Desk'; quantity = 'uniformty'; at_least = 1", &[grid()]).expect("a sheet"));
     assert!(no_quantity.contains("Did you mean 'uniformity'?") && no_quantity.contains("mean of illuminance"), "{no_quantity}");
 }
+
+/// What a command leaves out stands beside its figures: a glare that is met is not met of what nobody rated.
+#[test]
+fn what_is_left_out_is_told() {
+    let mut glare = grid();
+    (glare["grids"][0]["quantity"], glare["grids"][0]["unit"]) = (json!("ugr"), json!(""));
+    glare["grids"][0]["values"][0] = Value::Null;
+    glare["grids"][0]["ugr_coverage"] =
+        json!([{ "left_out": 0, "share_left_out": 0.0, "behind_covers": 2 }, { "left_out": 0, "behind_covers": 0 }]);
+    let sheet = told(&one("area = 'Desk'; quantity = 'ugr'; at_most = 1000", &[glare]).expect("a sheet"));
+    assert!(sheet.contains("behind glass or covers is not rated at 1 points") && sheet.contains("1 point"), "{sheet}");
+    let note = "2 of 3 eyes see luminaires through glass";
+    let observer = json!({ "name": "Keeper", "gr": 30.0, "gr_error": 0.1 });
+    let sports = json!({ "fields": [], "observers": [observer], "notes": [note] });
+    let sheet = told(&one("area = 'Keeper'; quantity = 'gr'; at_most = 50", &[sports]).expect("a sheet"));
+    assert!(sheet.contains(note), "{sheet}");
+}
