@@ -84,3 +84,27 @@ def test_grids_and_python_tell_it_too(run, tmp_path):
     scene.add_meter((0, -3, 1.6), facing=(0, 1, 0), quantity="ugr")
     (meter,) = gonio.measure(scene, samples=16).meters
     assert math.isnan(meter.value) and meter.coverage.covered == 1 and "not rated" in meter.coverage.note
+
+
+SUBSET = """    def GeomSubset "NAME" (prepend apiSchemas = ["MaterialBindingAPI"])
+    {
+        uniform token elementType = "face"
+        uniform token familyName = "materialBind"
+        int[] indices = [FACES]
+        rel material:binding = </Cover/MATERIAL>
+    }
+"""
+
+
+def test_the_wall_of_a_window_hides_what_is_behind_it(run, tmp_path):
+    """One mesh of opaque faces before the eye and of thin panes behind them."""
+    cover = COVER.replace("INPUTS", PANE)
+    wall = cover[cover.index("    def Material") : cover.rindex("}\n")].replace('"Stuff"', '"Wall"').replace("Cover/Stuff", "Cover/Wall").replace(PANE, OPAQUE)
+    parts = "".join(
+        SUBSET.replace("NAME", name).replace("FACES", faces).replace("MATERIAL", material)
+        for name, faces, material in (("Front", "0, 2", "Wall"), ("Back", "1, 3, 4, 5", "Stuff"))
+    )
+    (tmp_path / "stage.usda").write_text(HEAD + cover[: cover.rindex("}\n")] + wall + parts + "}\n")
+    where = ("--at", "0,-3,1.6", "--facing", "0,1,0", "--quantity", "ugr", "--spp", 64)
+    (meter,) = json.loads(run("measure", tmp_path / "stage.usda", *where, "--json").stdout)["meters"]
+    assert meter["value"] == 0 and meter["ugr_coverage"]["behind_covers"] == 0

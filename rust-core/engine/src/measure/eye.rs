@@ -181,7 +181,13 @@ fn drawn(emitter: &LightTable, place: [f32; 3], u: [f32; 2]) -> LightSample<One>
 fn retain_seen(parts: &mut Vec<Part>, place: [f32; 3], scene: &CompiledScene) -> bool {
     let ways: Vec<Way> = parts.iter().map(|part| Way { direction: part.direction, from: 0.0, to: part.distance * FREE }).collect();
     let mut blocked = vec![0; ways.len()];
-    asked(&ways, place, |rays| scene.tables.bvh.any_hit_transparent(Execution::Scalar, rays, &mut blocked, &mut Vec::new()));
+    let mut passed = Vec::new();
+    asked(&ways, place, |rays| scene.tables.bvh.any_hit_transparent(Execution::Scalar, rays, &mut blocked, &mut passed));
+    let (materials, geometry) = (&scene.tables.materials, &scene.tables.geometry);
+    // Of a mesh with a window in it the wall hides what is behind.
+    for hit in passed.iter().filter(|hit| !materials.lets_light_pass(geometry.material(hit.instance, hit.primitive))) {
+        blocked[hit.ray as usize] = 1;
+    }
     let mut blocked = blocked.into_iter();
     parts.retain(|_| blocked.next() == Some(0));
     parts.is_empty() && is_covered(ways, place, scene)
