@@ -255,6 +255,10 @@ impl Default for Light {
 }
 
 impl Light {
+    /// Whether it has a place, and shines itself.
+    pub fn is_luminaire(&self) -> bool {
+        !self.shape.is_at_infinity() && !self.portal
+    }
     /// A light of a shape at a place, of radiance 1 (cd/m²; 1 cd for a point) and with nothing else set.
     pub fn new(origin: Origin, shape: LightShape, transform: Transform) -> Self {
         Self { origin, shape, transform, ..Self::default() }

@@ -36,7 +36,7 @@ pub struct CompiledScene {
     /// Names of the primvars in the tables, whose columns follow that of the normals.
     pub(super) primvars: Vec<String>,
     /// By light, the mean of the picture over it, where there is one.
-    pub(super) light_means: Vec<Option<[f32; 3]>>,
+    pub(crate) light_means: Vec<Option<[f32; 3]>>,
     /// Spectra of its lamps.
     pub(super) spectra: LampSpectra,
     /// Its metals.

@@ -1,7 +1,6 @@
 //! A scene's lights as luminaires: what they send in all, and what shines of them.
 
 use super::{
-    CompiledScene,
     goniograms::CompiledGoniograms,
     lights::{emitters, record},
     openings::Part,
@@ -44,7 +43,7 @@ fn of_luminaires<T>(
     let mut goniograms = CompiledGoniograms::default();
     let mut far_fields = FarFields::default();
     let of_light = |(number, light): (usize, &Light)| {
-        (is_luminaire(light) && light.texture.is_none()).then(|| {
+        (light.is_luminaire() && light.texture.is_none()).then(|| {
             let records = records(light, [0.0; 3], &mut goniograms, &mut far_fields);
             asked(number, &records, &mut goniograms, &mut far_fields)
         })
@@ -65,25 +64,19 @@ pub(crate) struct Luminaire {
     pub(crate) casts_shadow: bool,
 }
 
-/// The scene's lights that have a place and take no light away, rebased as it is compiled. Pictures over them count by their means.
-pub(crate) fn luminaires(scene: &Scene, compiled: &CompiledScene) -> Vec<Luminaire> {
-    let origin = compiled.tables.origin;
+/// The scene's lights that have a place and take no light away, seen from an origin in world space. Pictures over them count by their `means`.
+pub(crate) fn luminaires(scene: &Scene, origin: [f64; 3], means: &[Option<[f32; 3]>]) -> Vec<Luminaire> {
     let mut goniograms = CompiledGoniograms::default();
     let mut far_fields = FarFields::default();
     let luminaire = |(number, light): (usize, &Light)| {
         let mut records = records(light, origin, &mut goniograms, &mut far_fields);
-        let mean = compiled.light_means.get(number).copied().flatten().unwrap_or([1.0; 3]);
+        let mean = means.get(number).copied().flatten().unwrap_or([1.0; 3]);
         records.iter_mut().for_each(|record| record.radiance = std::array::from_fn(|k| record.radiance[k] * mean[k]));
         let alone = |record: LightRecord| LightTable::build(&[record], &[] as &[LightTexture], &goniograms.tables);
         let emitters = records.into_iter().map(alone).collect();
         Luminaire { centre: light.transform.point([0.0; 3]), emitters, is_one: light.goniogram.is_some(), casts_shadow: light.casts_shadow }
     };
-    scene.lights.iter().enumerate().filter(|(_, light)| is_luminaire(light) && !light.takes_away()).map(luminaire).collect()
-}
-
-/// Whether a light has a place.
-pub(crate) fn is_luminaire(light: &Light) -> bool {
-    !light.shape.is_at_infinity() && !light.portal
+    scene.lights.iter().enumerate().filter(|(_, light)| light.is_luminaire() && !light.takes_away()).map(luminaire).collect()
 }
 
 /// The light's emitters as strong as it is; what cannot be used is reported when the scene is compiled.

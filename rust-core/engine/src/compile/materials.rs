@@ -4,7 +4,6 @@ mod displacement;
 pub(super) mod media;
 mod parameters;
 mod program;
-mod spectrum;
 
 use super::{
     fields::{self, KeptFields},
@@ -26,7 +25,6 @@ use gonio_nodes::{Channel, Operand, Value};
 pub(super) use parameters::Parameters;
 use parameters::{WEIGHT, tell_weights};
 use program::{CompiledGraph, asks_for_ray, compile_graph, sampled_program};
-pub(super) use spectrum::emission_of_colour;
 
 /// Nodes that a graph may have: their numbers are of two bytes.
 const MOST_NODES: usize = 1 << 16;

@@ -2,7 +2,6 @@
 
 use super::kept::{KeptImages, Stamp, Tiles};
 use super::light_images::{LightImages, light_images};
-use super::luminaires::is_luminaire;
 use crate::{
     colour::{ColourSpace, Stated},
     error::{Diagnostic, Result},
@@ -50,7 +49,7 @@ impl CompiledTextures {
         // Each once, however many lights have it.
         let mut means: Vec<Option<[f32; 3]>> = vec![None; self.of_lights.len()];
         let mut of_light = |(light, number): (&Light, &Option<u32>)| {
-            let number = number.filter(|_| is_luminaire(light))? as usize;
+            let number = number.filter(|_| light.is_luminaire())? as usize;
             let image = self.of_lights.get(number)?;
             Some(*means[number].get_or_insert_with(|| mean(image)))
         };

@@ -1,6 +1,6 @@
 //! What the wavelengths of paths mean: the table that kernels read, and the spectra of lamps.
 
-use super::{materials::emission_of_colour, metals::Metals};
+use super::{metals::Metals, shining::emission_of_colour};
 use crate::{
     colour::luminance_of_pixel,
     error::Diagnostic,

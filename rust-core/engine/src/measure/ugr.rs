@@ -12,7 +12,7 @@ use super::{
     watch::Watch,
 };
 use crate::{
-    compile::{compile, is_luminaire, luminaires},
+    compile::{compile, luminaires},
     error::{Diagnostic, Result},
     scene::{Integrator, Light, Meter, Scene, Settings},
 };
@@ -43,10 +43,10 @@ pub(super) fn ratings(
     let alone = under_luminaires(scene);
     let under_them = Arc::new(compile(&alone, Some(&compiled), watch.cancel)?);
     let direct = sense(&under_them, &probes, &alone.settings, execution, watch)?.readings;
-    for light in scene.lights.iter().filter(|light| is_luminaire(light) && light.takes_away()) {
+    for light in scene.lights.iter().filter(|light| light.is_luminaire() && light.takes_away()) {
         diagnostics.push(Diagnostic::warning(&light.origin, "it takes light away, and so is no source of glare"));
     }
-    let luminaires = luminaires(scene, &compiled);
+    let luminaires = luminaires(scene, compiled.tables.origin, &compiled.light_means);
     let rated = eyes.iter().zip(all.iter().zip(&direct)).map(|(eye, (all, direct))| {
         let rest = if all.is_known() { (all.value - direct.value).max(0.0) } else { all.value };
         let background = Reading { value: rest, standard_error: all.standard_error.hypot(direct.standard_error) };
@@ -65,7 +65,7 @@ pub(super) fn ratings(
 
 /// The luminaires' direct light alone.
 fn under_luminaires(scene: &Scene) -> Scene {
-    let lights: Vec<Light> = scene.lights.iter().filter(|light| is_luminaire(light)).cloned().collect();
+    let lights: Vec<Light> = scene.lights.iter().filter(|light| light.is_luminaire()).cloned().collect();
     let settings = Settings { integrator: Integrator::Direct, ..scene.settings.clone() };
     Scene { lights, settings, ..scene.without_emission() }
 }

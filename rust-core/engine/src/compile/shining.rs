@@ -6,7 +6,7 @@ use crate::{
 };
 
 /// The material with emission as bright as its own in a colour of unit luminance.
-pub(in crate::compile) fn emission_of_colour(material: &Material, [r, g, b]: [f32; 3]) -> Material {
+pub(super) fn emission_of_colour(material: &Material, [r, g, b]: [f32; 3]) -> Material {
     let mut coloured = material.clone();
     let Material { closures, graph, .. } = &mut coloured;
     let [red, green, blue] = LUMINANCE.map(|weight| weight as f32);
