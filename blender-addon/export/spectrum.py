@@ -1,19 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Spectra of what shines: lamps and materials."""
 
-from pathlib import Path
-
-import bpy
 import gonio
 
+from .file_or_name import file_or_name
 
-def spectrum(shining, report, kind):
-    """The spectrum that a lamp or a material names, as the core has it; None, with a report, where it is neither a file nor a name."""
-    asked = shining.gonio.spectrum
-    path = Path(bpy.path.abspath(asked, library=shining.library))
+
+def spectrum(shining, report, kind, **place):
+    """The spectrum that a lamp or a material names, as the core has it; None, with a line of the report at this place, where it is neither a file nor
+    a name."""
     try:
-        found = gonio.read_spectrum(path.read_bytes(), path.name) if path.is_file() else gonio.illuminant(asked)
+        found = file_or_name(shining.gonio.spectrum, shining, gonio.read_spectrum, gonio.illuminant)
     except (OSError, gonio.Error) as error:
-        report.add(kind, shining.name, f"{error}; its light keeps its colour")
+        report.add(kind, shining.name, f"{error}; its light keeps its colour", **place)
         return None
     return {key: found[key] for key in ("name", "wavelengths_nm", "power")}

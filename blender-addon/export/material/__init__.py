@@ -74,7 +74,7 @@ def translate(material, images, measurements, report, version=None, shader_aovs=
     if (made_of := metal(material, report)) is not None:
         described["closures"] = [{**made, "metal": made_of} for made in described["closures"]]
     if material.gonio.spectrum:
-        described["spectrum"] = spectrum(material, report, "Material")
+        described["spectrum"] = spectrum(material, report, "Material", material=material.name)
     if not material.use_transparent_shadow and not (end is not None and t.linked(end, "Volume", t.root)):
         # Cycles lets light into volumes always.
         described["transparent_shadows"] = False

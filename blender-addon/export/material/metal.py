@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What metal a material is made of."""
 
-from pathlib import Path
-
-import bpy
 import gonio
+
+from ..file_or_name import file_or_name
 
 
 def metal(material, report):
@@ -12,9 +11,8 @@ def metal(material, report):
     asked = material.gonio.metal
     if not asked:
         return None
-    path = Path(bpy.path.abspath(asked, library=material.library))
     try:
-        found = gonio.read_metal(path.read_bytes(), path.name) if path.is_file() else gonio.metal(asked)
+        found = file_or_name(asked, material, gonio.read_metal, gonio.metal)
     except (OSError, gonio.Error) as error:
         report.add("Material", material.name, f"{error}; the material keeps its colours", material=material.name)
         return None
