@@ -2,8 +2,8 @@
 
 use super::fields::KeptFields;
 use super::{
-    bounds::Bounds, casters::Casters, dice::KeptDiced, displace::KeptDisplaced, kept::KeptImages, lights::KeptLights,
-    measured::CompiledMeasured, metals::Metals,
+    bounds::Bounds, casters::Casters, dice::KeptDiced, displace::KeptDisplaced, kept::KeptImages, light_images::LightImages,
+    lights::KeptLights, measured::CompiledMeasured, metals::Metals,
 };
 use super::{primvars, smooth::KeptSmooth, trees::KeptTree, wavelengths::LampSpectra};
 use crate::{
@@ -35,8 +35,8 @@ pub struct CompiledScene {
     pub(crate) casters: Casters,
     /// Names of the primvars in the tables, whose columns follow that of the normals.
     pub(super) primvars: Vec<String>,
-    /// By light, the mean of the picture over it, where there is one.
-    pub(crate) light_means: Vec<Option<[f32; 3]>>,
+    /// Pictures over its lights.
+    pub(crate) light_images: LightImages,
     /// Spectra of its lamps.
     pub(super) spectra: LampSpectra,
     /// Its metals.

@@ -14,9 +14,28 @@ use std::sync::Arc;
 
 /// Images, and which of them each light of the scene has.
 #[derive(Debug)]
-pub(super) struct LightImages {
+pub(crate) struct LightImages {
     pub(super) images: Vec<Arc<LightTexture>>,
     pub(super) numbers: Vec<Option<u32>>,
+}
+
+impl LightImages {
+    /// By light that has a place, the mean of the picture over it, where there is one.
+    pub(crate) fn means(&self, scene: &Scene) -> Vec<Option<[f32; 3]>> {
+        // Each once, however many lights have it.
+        let mut means: Vec<Option<[f32; 3]>> = vec![None; self.images.len()];
+        let mut of_light = |(light, number): (&Light, &Option<u32>)| {
+            let number = number.filter(|_| light.is_luminaire())? as usize;
+            Some(*means[number].get_or_insert_with(|| mean(&self.images[number])))
+        };
+        scene.lights.iter().zip(&self.numbers).map(&mut of_light).collect()
+    }
+}
+
+fn mean(image: &LightTexture) -> [f32; 3] {
+    let mut sum = [0.0; 3];
+    image.rgb.chunks_exact(3).for_each(|pixel| (0..3).for_each(|k| sum[k] += f64::from(pixel[k])));
+    sum.map(|sum| (sum / (image.rgb.len() / 3).max(1) as f64) as f32)
 }
 
 /// A texture in a layout, and what came of it.

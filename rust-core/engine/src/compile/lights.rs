@@ -130,7 +130,7 @@ pub(super) fn compile(
             let first = records.len();
             let parts = emitters(&light, origin, goniogram.and_then(|number| goniograms.tables.get(number as usize)));
             for part in &parts {
-                let plain = record(&light, part, textures.light_numbers[number], diagnostics);
+                let plain = record(&light, part, textures.of_lights.numbers[number], diagnostics);
                 records.push(LightRecord { goniogram, ..plain });
             }
             groups.of_light.resize(records.len(), group);
@@ -153,7 +153,7 @@ pub(super) fn compile(
     let triangle_lights = emissive_triangles(scene, probe, origin, &mut records, diagnostics)?;
     let light_instances = (first_triangle, instances_of(&triangle_lights, records.len() - first_triangle as usize, first_triangle));
     let groups = groups.with_instances(scene, geometry, &triangle_lights, records.len());
-    let images = textures.of_lights.clone();
+    let images = textures.of_lights.images.clone();
     let (linking, links) = CompiledLinking::new(scene, geometry, &light_of, &triangle_lights, &mut records, diagnostics);
     let table = previous.table(&records, &images, &goniograms, &links, &filters);
     let kept = KeptLights { records, images, goniograms, links, filters, table: Some(table.clone()) };

@@ -128,7 +128,7 @@ fn laid_out(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicBool
         besides: Besides::of(scene),
         casters,
         primvars: looks.names,
-        light_means: looks.textures.light_means(scene),
+        light_images: looks.textures.of_lights,
         spectra: looks.spectra,
         metals: looks.metals,
         workspaces: previous.map(|p| p.workspaces.clone()).unwrap_or_default(),

@@ -5,8 +5,7 @@ use super::light_images::{LightImages, light_images};
 use crate::{
     colour::{ColourSpace, Stated},
     error::{Diagnostic, Result},
-    light::LightTexture,
-    scene::{Light, Operation, Origin, Scene, Texture, TextureId, TextureSource, Tile},
+    scene::{Operation, Origin, Scene, Texture, TextureId, TextureSource, Tile},
     texture::{
         self, CacheFolder, Image, MipMap, Source, Texels, TextureError, TextureMemory, TextureRequest, TextureTable, find_tiles, is_udim,
         tile_path,
@@ -24,9 +23,7 @@ use std::{
 pub(super) struct CompiledTextures {
     pub(super) table: TextureTable,
     numbers: Vec<Option<u32>>,
-    /// Images of lights, and which of them each light of the scene has.
-    pub(super) of_lights: Vec<Arc<LightTexture>>,
-    pub(super) light_numbers: Vec<Option<u32>>,
+    pub(super) of_lights: LightImages,
     /// For the next compilation.
     pub(super) kept: KeptImages,
     /// What reading, decoding and filtering took.
@@ -37,23 +34,6 @@ impl CompiledTextures {
     /// A scene texture's number in the table; `None` if it could not be had.
     pub(super) fn number(&self, id: TextureId) -> Option<u32> {
         self.numbers.get(id.index()).copied().flatten()
-    }
-
-    /// By light that has a place, the mean of the picture over it, where there is one.
-    pub(super) fn light_means(&self, scene: &Scene) -> Vec<Option<[f32; 3]>> {
-        let mean = |image: &LightTexture| {
-            let mut sum = [0.0; 3];
-            image.rgb.chunks_exact(3).for_each(|pixel| (0..3).for_each(|k| sum[k] += f64::from(pixel[k])));
-            sum.map(|sum| (sum / (image.rgb.len() / 3).max(1) as f64) as f32)
-        };
-        // Each once, however many lights have it.
-        let mut means: Vec<Option<[f32; 3]>> = vec![None; self.of_lights.len()];
-        let mut of_light = |(light, number): (&Light, &Option<u32>)| {
-            let number = number.filter(|_| light.is_luminaire())? as usize;
-            let image = self.of_lights.get(number)?;
-            Some(*means[number].get_or_insert_with(|| mean(image)))
-        };
-        scene.lights.iter().zip(&self.light_numbers).map(&mut of_light).collect()
     }
 }
 
@@ -114,8 +94,8 @@ pub(super) fn compile(
     let numbers = maps.into_iter().map(|tiles| push(&mut table, tiles)).collect();
     let shortage = table.memory().and_then(|memory| memory.shortage());
     diagnostics.extend(shortage.map(|shortage| Diagnostic::warning(&Origin::new("texture memory"), shortage)));
-    let LightImages { images, numbers: light_numbers } = lights.finish(scene, &stamps, &mut kept, diagnostics);
-    Ok(CompiledTextures { table, numbers, of_lights: images, light_numbers, kept, seconds: start.elapsed().as_secs_f64() })
+    let of_lights = lights.finish(scene, &stamps, &mut kept, diagnostics);
+    Ok(CompiledTextures { table, numbers, of_lights, kept, seconds: start.elapsed().as_secs_f64() })
 }
 
 /// What comes of requests.

@@ -24,7 +24,7 @@ pub struct StraightLight {
 /// # Errors
 /// Places that are not finite, cancellation.
 pub fn straight_light(scene: &Scene, compiled: &CompiledScene, places: &[[f64; 3]], cancel: &AtomicBool) -> Result<Vec<StraightLight>> {
-    let luminaires = luminaires(scene, compiled.tables.origin, &compiled.light_means);
+    let luminaires = luminaires(scene, compiled.tables.origin, &compiled.light_images.means(scene));
     let to = |place: &[f64; 3]| {
         if cancel.load(Ordering::Relaxed) {
             return Err(Error::Cancelled);

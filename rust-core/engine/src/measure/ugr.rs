@@ -46,7 +46,7 @@ pub(super) fn ratings(
     for light in scene.lights.iter().filter(|light| light.is_luminaire() && light.takes_away()) {
         diagnostics.push(Diagnostic::warning(&light.origin, "it takes light away, and so is no source of glare"));
     }
-    let luminaires = luminaires(scene, compiled.tables.origin, &compiled.light_means);
+    let luminaires = luminaires(scene, compiled.tables.origin, &compiled.light_images.means(scene));
     let rated = eyes.iter().zip(all.iter().zip(&direct)).map(|(eye, (all, direct))| {
         let rest = if all.is_known() { (all.value - direct.value).max(0.0) } else { all.value };
         let background = Reading { value: rest, standard_error: all.standard_error.hypot(direct.standard_error) };
