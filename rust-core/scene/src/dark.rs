@@ -1,6 +1,6 @@
 //! A scene of which only a part sends light: its lights, or surfaces that are chosen.
 
-use super::{Closure, Input, Material, Medium, Scene};
+use super::{Closure, Input, Material, MaterialId, Medium, Scene};
 
 impl Scene {
     /// The scene with its lights as they are, and nothing else that sends light: surfaces, solids, what fills meshes and all of space. What these reflect,
@@ -28,6 +28,11 @@ impl Scene {
     /// Whether anything may send light that is no light: a surface, a solid, what fills meshes or all of space.
     pub fn shines_without_lights(&self) -> bool {
         self.media_shine() || self.materials.iter().any(Material::shines)
+    }
+
+    /// Whether the surfaces of a material shine by themselves, or take light away.
+    pub fn shines(&self, material: MaterialId) -> bool {
+        self.materials.get(material.index()).is_some_and(Material::shines)
     }
 
     /// Whether any of that has no spectrum: media, and surfaces whose materials name none.

@@ -57,19 +57,18 @@ fn seen(scene: &Scene, burning: &[usize], plan: &Plan, up: [f64; 3]) -> Vec<Lamp
     let corners = plan.routes.iter().flat_map(|route| &route.line).chain(plan.areas.iter().flat_map(|area| &area.outline));
     let floor = corners.map(|corner| along(*corner)).fold(f64::INFINITY, f64::min);
     let floor = if floor.is_finite() { floor } else { 0.0 };
-    let lamps = lamps(scene, burning);
-    let evenly = directions(plan.glare(up), up);
-    let peaks = peaks(scene, &lamps, |lights| [&evenly[..], &stated(scene, lights, plan.glare(up), up)].concat());
+    let (lamps, glare) = (lamps(scene, burning), plan.glare(up));
+    let evenly = directions(glare, up);
+    let mut peaks = peaks(scene, &lamps, |lights| [&evenly[..], &stated(scene, lights, glare, up)].concat()).into_iter();
+    let light = |lights: &[usize]| &scene.lights[lights[0]];
     let mut seen = Vec::new();
-    for (lights, peak_cd) in lamps.iter().zip(peaks) {
-        let light = &scene.lights[lights[0]];
-        let name = &light.origin.name;
-        // Placements of an instancer have one name.
-        let name = match lamps.iter().filter(|other| scene.lights[other[0]].origin.name == *name).count() {
-            1 => name.to_string(),
-            _ => format!("{name}[{}]", seen.iter().filter(|lamp: &&Lamp| lamp.name.starts_with(&format!("{name}["))).count()),
-        };
-        seen.push(Lamp { name, height: along(light.transform.point([0.0; 3])) - floor, peak_cd });
+    for placements in lamps.chunk_by(|a, b| light(a).origin.name == light(b).origin.name) {
+        for (number, lights) in placements.iter().enumerate() {
+            let (light, peak_cd) = (light(lights), peaks.next().flatten());
+            // Placements of an instancer have one name.
+            let name = if placements.len() > 1 { format!("{}[{number}]", light.origin.name) } else { light.origin.name.to_string() };
+            seen.push(Lamp { name, height: along(light.transform.point([0.0; 3])) - floor, peak_cd });
+        }
     }
     seen
 }

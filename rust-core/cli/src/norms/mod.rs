@@ -18,7 +18,7 @@ use gonio::{
     Diagnostic, Error, Result,
     compile::compile,
     measure::{MeterReading, StraightLight, straight_light},
-    scene::{Integrator, Light, Material, MaterialId, Meter, Origin, Scene},
+    scene::{Integrator, Light, Meter, Origin, Scene},
 };
 use gonio_formats::FormatError;
 use gonio_norms::{Reading, Spot};
@@ -101,8 +101,7 @@ fn not_counted(straight: &[StraightLight], places: &str, what: &str) -> Option<D
 
 /// Says what shines by itself, which counts for none of these figures.
 fn surfaces_left_out(scene: &Scene) -> Option<Diagnostic> {
-    let shines = |id: &MaterialId| scene.materials.get(id.index()).is_some_and(Material::shines);
-    let mut surfaces = scene.instances.iter().filter(|set| set.materials.iter().any(shines));
+    let mut surfaces = scene.instances.iter().filter(|set| set.materials.iter().any(|material| scene.shines(*material)));
     let first = surfaces.next()?;
     let (count, name) = (1 + surfaces.count(), &first.origin.name);
     let message = format!(

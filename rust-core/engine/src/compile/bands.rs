@@ -6,7 +6,7 @@ use super::compiled::CompiledScene;
 use crate::{
     colour::luminance_of_pixel,
     error::{Error, Result},
-    scene::{Light, Material, MaterialId, OTHER_LIGHTS, Scene},
+    scene::{Light, OTHER_LIGHTS, Scene},
     transport::MediumTable,
 };
 use gonio_spectrum::Bands;
@@ -70,9 +70,8 @@ impl BandedScene {
         if is_rest && scene.shines_without_spectra() {
             return None;
         }
-        let shines = |id: &&MaterialId| scene.materials.get(id.index()).is_some_and(Material::shines);
         let of_group = scene.instances.iter().filter(|set| is_of(&set.light_group));
-        let surfaces = of_group.flat_map(|set| set.materials.iter().filter(shines)).map(|id| self.surface(id.index()));
+        let surfaces = of_group.flat_map(|set| set.materials.iter().filter(|id| scene.shines(**id))).map(|id| self.surface(id.index()));
         let lights = scene.lights.iter().enumerate().filter(|(_, light)| is_of(&light.group) && !light.portal);
         let shining = lights.filter(|(_, light)| luminance_of_pixel(light.emission.radiance) != 0.0);
         let mut lamps = shining.map(|(number, light)| self.lamp(number, light)).chain(surfaces);
