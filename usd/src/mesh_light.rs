@@ -7,7 +7,7 @@ use crate::light_filter;
 use crate::photometry;
 use crate::prim::Prim;
 use gonio::colour::luminance_of_pixel;
-use gonio::scene::{Channel, Closure, Input, LUMENS_PER_WATT, Material, MaterialId, Operation};
+use gonio::scene::{Channel, Closure, Input, Material, MaterialId, Operation, lumens_per_watt};
 
 /// Whether a light is made of the prim's geometry.
 pub(crate) fn is_geometry_light(prim: &Prim<'_>) -> bool {
@@ -29,8 +29,7 @@ pub(crate) fn material<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, bo
     let mode: String = context.get(prim, "light:materialSyncMode").unwrap_or_default();
     let of_material = context.scene.materials.get(bound.index()).and_then(|base| base.spectrum.clone());
     let spectrum = lamp_spectrum(context, prim).or(of_material.filter(|_| mode != "noMaterialResponse"));
-    let efficacy = spectrum.as_ref().and_then(|spectrum| spectrum.lumens_per_watt()).unwrap_or(LUMENS_PER_WATT);
-    if let Some(luminance) = photometry::of_mesh(context, prim, square_metres, efficacy) {
+    if let Some(luminance) = photometry::of_mesh(context, prim, square_metres, lumens_per_watt(spectrum.as_deref())) {
         let tint = tint(context, prim);
         let own = f64::from(luminance_of_pixel(tint));
         radiance = tint.map(|x| if own > 0.0 { (f64::from(x) * luminance / own) as f32 } else { 0.0 });

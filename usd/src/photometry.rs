@@ -20,7 +20,7 @@ pub(crate) struct Photometry {
     pub(crate) goniogram: Option<Arc<Goniogram>>,
     /// The shape that emits, where it is another than the schema's.
     pub(crate) shape: Option<LightShape>,
-    /// Turns the luminaire about its vertical axis, and takes its opening from metres to the light's own units.
+    /// Where that stands: turned about its vertical axis, of openings in metres.
     pub(crate) placed: Option<Transform>,
 }
 
@@ -44,12 +44,10 @@ pub(crate) fn photometry<'py>(
     let path = if shape.is_at_infinity() { None } else { file(context, prim) };
     let quantity = quantity(context, prim).or(path.is_some().then_some(LightQuantity::Measured));
     let goniogram = path.and_then(|path| goniogram(context, prim, &path, quantity));
-    let opening = opening(context, prim, shape, goniogram.as_deref());
+    let (shape, placed) = opening(context, prim, (shape, transform), goniogram.as_deref()).unzip();
     let dimming = dimming(context, prim);
     let rotation: f64 = attribute(context, prim, "rotation").unwrap_or(0.0);
-    let by_light = attribute::<String>(context, prim, "opening").as_deref() == Some("light");
-    let placed = opening.map(|_| luminaire_place(transform, by_light.then_some(context.metres_per_unit), rotation));
-    Some(Photometry { quantity, dimming, goniogram, shape: opening, placed })
+    Some(Photometry { quantity, dimming, goniogram, shape, placed: placed.map(|placed| turned(&placed, rotation)) })
 }
 
 /// Dimming times maintenance; 1 where nothing is said.
@@ -83,19 +81,30 @@ fn goniogram<'py>(
     goniogram::absolute(context, prim, path, lamping, instead)
 }
 
-/// The emitter of a luminaire's file: its own opening, a point, or the light's shape.
-fn opening<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, shape: LightShape, found: Option<&Goniogram>) -> Option<LightShape> {
+/// The emitter of a luminaire's file, in metres, and its place: its own opening or a point, however the prim is scaled, or the light's shape, as large as it
+/// stands there.
+fn opening<'py>(
+    context: &mut Context<'_, 'py>,
+    prim: &Prim<'py>,
+    (shape, transform): (LightShape, &Transform),
+    found: Option<&Goniogram>,
+) -> Option<(LightShape, Transform)> {
     let asked: String = attribute(context, prim, "opening").unwrap_or_default();
     let found = found?;
-    Some(match asked.as_str() {
+    let metres_per_unit = context.metres_per_unit;
+    let own = match asked.as_str() {
         "" | "file" => LightShape::Opening(found.opening),
         "point" => LightShape::Point,
-        "light" => LightShape::Opening(of_light(shape, context.metres_per_unit)),
+        "light" => {
+            let of_light = LightShape::Opening(of_light(shape, metres_per_unit));
+            return Some((of_light, transform.after(&Transform::scale(1.0 / metres_per_unit))));
+        }
         other => {
             context.warn(&prim.origin(), format!("{PREFIX}opening is '{other}', expected file, point or light; file is used"));
             LightShape::Opening(found.opening)
         }
-    })
+    };
+    Some((own, transform.without_scale()))
 }
 
 /// The opening that a light's shape is, in metres.
@@ -112,15 +121,10 @@ fn of_light(shape: LightShape, metres_per_unit: f64) -> Opening {
     }
 }
 
-/// Files state openings in metres, whatever the stage's unit is and however the prim is scaled; the light's own shape is as large as it stands there, in units
-/// of so many metres.
-fn luminaire_place(transform: &Transform, metres_per_unit: Option<f64>, rotation_deg: f64) -> Transform {
+/// A luminaire's place with C0 turned towards C90.
+fn turned(placed: &Transform, rotation_deg: f64) -> Transform {
     let (sine, cosine) = rotation_deg.to_radians().sin_cos();
-    let turned = Transform { columns: [[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0], [0.0; 3]] };
-    match metres_per_unit {
-        Some(unit) => transform.after(&Transform::scale(1.0 / unit)).after(&turned),
-        None => transform.without_scale().after(&turned),
-    }
+    placed.after(&Transform { columns: [[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0], [0.0; 3]] })
 }
 
 fn quantity<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<LightQuantity> {

@@ -1,5 +1,6 @@
 //! Spectra of lamps.
 
+use super::LUMENS_PER_WATT;
 use gonio_spectrum::Spectrum;
 use serde::{Deserialize, Serialize};
 
@@ -15,11 +16,10 @@ pub struct LampSpectrum {
     pub power: Vec<f64>,
 }
 
-impl LampSpectrum {
-    /// Lumens of a watt of it (luminous efficacy of radiation); none where it is no spectrum.
-    pub fn lumens_per_watt(&self) -> Option<f64> {
-        Some(Spectrum::new(&self.name, &self.wavelengths_nm, &self.power).ok()?.luminous_efficacy())
-    }
+/// Lumens of a watt of what something shines with: its spectrum's luminous efficacy of radiation, or [`LUMENS_PER_WATT`] where it has none that can be used.
+pub fn lumens_per_watt(of: Option<&LampSpectrum>) -> f64 {
+    let found = of.and_then(|of| Spectrum::new(&of.name, &of.wavelengths_nm, &of.power).ok());
+    found.map_or(LUMENS_PER_WATT, |spectrum| spectrum.luminous_efficacy())
 }
 
 impl From<Spectrum> for LampSpectrum {

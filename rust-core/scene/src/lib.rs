@@ -62,7 +62,7 @@ pub use gonio_nodes::{
 pub use gonio_volume::{BRICK_EDGE, BRICK_VOXELS};
 pub use goniogram::Goniogram;
 pub use instance::{Geometry, Instances, Visibility};
-pub use lamp_spectrum::LampSpectrum;
+pub use lamp_spectrum::{LampSpectrum, lumens_per_watt};
 pub use light::{DomeFormat, Emission, Falloff, Light, LightShape, Shaping, Spot};
 pub use light_filter::{LightFilter, Slide};
 pub use light_path::{LightPath, LightSource, MOST_EXPRESSIONS, MOST_STATES, PathAutomaton, SCATTERINGS, STEPS, light_path};

@@ -24,7 +24,7 @@ pub enum LightQuantity {
     },
     /// The greatest luminance in cd/m².
     Nits(f64),
-    /// Radiant flux in W, times the efficacy of the light's spectrum, or [`LUMENS_PER_WATT`] without one.
+    /// Radiant flux in W, times the light's [`lumens_per_watt`](super::lumens_per_watt).
     Watts(f64),
     /// The goniogram's factors are intensities in cd.
     Measured,

@@ -7,7 +7,7 @@ use crate::{
     observer::{EFFICACY, cie_1931, uv, xy},
     rendering::{self, Rendering, TOLERANCE, rendering},
     rendition::{self, Rendition, rendition},
-    source::{Spectrum, sums},
+    source::{Node, Spectrum, sums},
 };
 
 /// What a spectrum says.
@@ -46,9 +46,13 @@ impl Spectrum {
     /// Luminous efficacy of radiation, lm/W: of the power within the observer's range.
     pub fn luminous_efficacy(&self) -> f64 {
         let nodes = self.nodes();
-        let [power] = sums(&nodes, |_| [1.0]);
-        EFFICACY * sums(&nodes, cie_1931)[1] / power
+        efficacy(&nodes, sums(&nodes, cie_1931))
     }
+}
+
+fn efficacy(nodes: &[Node], xyz: [f64; 3]) -> f64 {
+    let [power] = sums(nodes, |_| [1.0]);
+    EFFICACY * xyz[1] / power
 }
 
 /// The figures of a spectrum.
@@ -82,7 +86,7 @@ pub fn figures(spectrum: &Spectrum) -> Figures {
         xy: xy(xyz),
         uv: [u, 1.5 * v],
         peak_nm: spectrum.wavelengths_nm[peak],
-        ler: spectrum.luminous_efficacy(),
+        ler: efficacy(&nodes, xyz),
         alpha_opic: alpha_opic(&nodes),
         white,
         notes,

@@ -51,7 +51,8 @@ pub(super) fn compile(
             let problem = format!("the material refers to node {} of its graph, which does not exist", node.0);
             return Err(Error::scene(&material.origin, problem));
         }
-        if spectra.number_of_material(number) != 0 && material.graph.nodes.len() + 2 * material.closures.len() > MOST_NODES {
+        let spectrum = spectra.number_of_material(number);
+        if spectrum != 0 && material.graph.nodes.len() + 2 * material.closures.len() > MOST_NODES {
             return Err(Error::scene(&material.origin, "the graph has no room left for the nodes of its spectrum"));
         }
         let coloured = spectra.coloured_material(number, material);
@@ -66,7 +67,7 @@ pub(super) fn compile(
                 false => media::add(&closure.solid, &material.origin, &usable, &mut table.media, diagnostics),
             };
             let mut surface = surface(material, closure, (measured, metals), &graph, diagnostics);
-            surface.surface.spectrum = spectra.number_of_material(number);
+            surface.surface.spectrum = spectrum;
             table.surfaces.push(SurfaceMaterial { interior, solid_medium, ..surface });
         }
         if !material.shader_outputs.is_empty() {

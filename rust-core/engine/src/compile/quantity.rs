@@ -6,7 +6,7 @@ use crate::{
     colour::luminance,
     error::Diagnostic,
     light::{FarField, LightKind, LightRecord, Shaping, size_factor},
-    scene::{LUMENS_PER_WATT, Light, LightQuantity},
+    scene::{Light, LightQuantity, lumens_per_watt},
 };
 use std::f64::consts::PI;
 
@@ -114,9 +114,7 @@ fn strength(
     let mut lumens = |flux: f64| per(flux, self::flux(first, known, goniograms), "sends no light");
     match quantity {
         LightQuantity::Lumens(flux) => lumens(flux),
-        LightQuantity::Watts(watts) => {
-            lumens(watts * light.spectrum.as_ref().and_then(|own| own.lumens_per_watt()).unwrap_or(LUMENS_PER_WATT))
-        }
+        LightQuantity::Watts(watts) => lumens(watts * lumens_per_watt(light.spectrum.as_deref())),
         LightQuantity::LampLumens(flux) => {
             let stated = light.goniogram.as_ref().and_then(|goniogram| goniogram.lamp_flux).unwrap_or(0.0);
             per(flux, stated, "has no goniogram that states its lamps' flux")

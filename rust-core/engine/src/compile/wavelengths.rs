@@ -81,7 +81,7 @@ impl LampSpectra {
 
     /// A material as it shines by its spectrum.
     pub(super) fn coloured_material(&self, number: usize, material: &Material) -> Option<Material> {
-        let lamp = self.spectra.get((self.number_of_material(number) as usize).checked_sub(1)?)?;
+        let lamp = self.spectra.get(self.of_material(number)?)?;
         Some(emission_of_colour(material, lamp.colour))
     }
 
