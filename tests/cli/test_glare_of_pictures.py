@@ -1,11 +1,10 @@
 """Glare of lamps with pictures over them, and of luminaires whose prims are scaled: UGR, GR, and intensities."""
 
 import json
-import struct
-import zlib
 from pathlib import Path
 
 import pytest
+from pictures import write_png
 
 HEAD = '#usda 1.0\n(\n    upAxis = "Z"\n    metersPerUnit = 1\n)\n'
 FLOOR = """def Mesh "Floor"
@@ -30,15 +29,8 @@ PICTURE = "asset inputs:texture:file = @./picture.png@"
 
 
 def picture(folder: Path, levels):
-    """Columns of these levels of 255, as a PNG that says it is linear."""
-    rows = b"".join(b"\x00" + bytes(part for level in levels for part in (level,) * 3) for _ in range(4))
-
-    def chunk(name, data):
-        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
-
-    head = chunk(b"IHDR", struct.pack(">IIBBBBB", len(levels), 4, 8, 2, 0, 0, 0))
-    gamma = chunk(b"gAMA", struct.pack(">I", 100000))
-    (folder / "picture.png").write_bytes(b"\x89PNG\r\n\x1a\n" + head + gamma + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+    """Columns of these levels, 0 or 255, which are the same in every encoding."""
+    write_png(folder / "picture.png", [[[level] * 3 for level in levels]] * 4)
 
 
 def lamp(name, y, nits=5000.0, pictured=False):

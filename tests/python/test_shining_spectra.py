@@ -7,13 +7,13 @@ from test_colour_meters import QUANTITIES, assert_figures, figures_of, spectrum_
 from test_glowing_meshes import MADE, room
 
 
-def panel(spectrum, nits=(1000.0,) * 3, **parameters):
+def panel(spectrum, nits=(1000.0,) * 3):
     """A panel of 1 m² over meters that look up to it, under nothing else."""
     made = gonio.Scene()
     points = np.array([[-0.5, -0.5, 2], [-0.5, 0.5, 2], [0.5, 0.5, 2], [0.5, -0.5, 2]], "f4")
     quad = np.array([[0, 1, 2], [0, 2, 3]], "i4")
     given = {} if spectrum is None else {"spectrum": spectrum}
-    shining = made.add_material(base_color=(0,) * 3, specular_weight=0.0, emission_color=nits, **given, **parameters)
+    shining = made.add_material(base_color=(0,) * 3, specular_weight=0.0, emission_color=nits, **given)
     made.put_instances(made.add_mesh(points, quad), [shining], np.eye(4, dtype="f4").ravel(), light_group="Panel")
     return made
 
