@@ -21,7 +21,7 @@ use std::collections::BTreeMap;
 /// `targets` (text, reached, error, margin, verdict), `watts`, `watts_full`, `areas` with what each point gets of each group, `met`, and `notes`.
 ///
 /// targets: such as 'Floor.mean>=500', 'Floor.min>=200', 'Floor.max<=1000', 'Floor.uo>=0.6', 'Desk=500+-25'; watts: a group's power at level 1, else by its
-/// flux at 100 lm/W; fixed: groups that keep a level; min_level: of all others; near: levels by group to stay near, or 'equal', in place of the least
+/// luminaires' files or its flux at 100 lm/W; fixed: groups that keep a level; min_level: of all others; near: levels by group to stay near, or 'equal', in place of the least
 /// power; errors: standard errors to keep from each limit.
 #[pyfunction]
 #[pyo3(signature = (scene, targets, *, watts = None, fixed = None, min_level = 0.0, near = None, errors = 0.0, samples = 4096, max_bounces = None, cancelled = None))]
@@ -47,7 +47,7 @@ pub(crate) fn dim<'py>(
     let found = watched(py, ask, |stop, progress| {
         let mut watch = Watch { previous: None, cancel: stop, progress };
         let (targets, watts, fixed) = (&targets[..], &watts[..], &fixed[..]);
-        let task = DimTask { targets, watts, fixed, min_level, near: near.clone(), errors_kept: errors, stated: &|_| None };
+        let task = DimTask { targets, watts, fixed, min_level, near: near.clone(), errors_kept: errors };
         found_dimming(&description, &task, Execution::detect(), &mut watch)
     })?;
     described(py, &found)

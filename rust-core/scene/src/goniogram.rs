@@ -18,6 +18,9 @@ pub struct Goniogram {
     /// Flux in lm of the lamps that the factors are for, where it is known.
     #[serde(default)]
     pub lamp_flux: Option<f64>,
+    /// Electrical power in W at these factors, where it is known.
+    #[serde(default)]
+    pub watts: Option<f64>,
     /// The luminaire's opening, in metres; a light has it if its shape is one.
     #[serde(default)]
     pub opening: Opening,
@@ -34,6 +37,7 @@ impl From<&photometry::Goniogram> for Goniogram {
             vertical_deg: narrow(vertical),
             factors: narrow(intensities),
             lamp_flux: found.lamps().and_then(|lamps| lamps.flux),
+            watts: found.lamps().map(|lamps| lamps.watts).filter(|watts| *watts > 0.0),
             opening: found.opening,
         }
     }

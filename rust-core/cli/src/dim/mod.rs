@@ -12,7 +12,6 @@ use super::{
 use gonio::{
     Error, Result,
     dim::{DimTask, Dimming, Near, dim as found_dimming},
-    scene::Light,
 };
 use gonio_simd::Execution;
 use gonio_usd::SampleTime;
@@ -28,10 +27,9 @@ pub(super) fn dim(py: Python<'_>, options: &DimOptions, interrupted: &'static At
     let [watts, fixed] = [("watts", &options.watts), ("fixed", &options.fixed)].map(|(option, texts)| numbers(option, texts));
     let (watts, fixed, near) = (watts?, fixed?, near(&options.near)?);
     let (stage, loaded) = loaded(py, &options.measuring, interrupted)?;
-    let (scene, luminaires, quiet) = (&loaded.scene, &loaded.luminaires, options.measuring.quiet);
-    let stated = |light: &Light| luminaires.iter().find(|file| file.is_of(light))?.photometry.figures().watts;
+    let (scene, quiet) = (&loaded.scene, options.measuring.quiet);
     let (min_level, errors_kept) = (options.min_level, options.errors);
-    let task = DimTask { targets: &options.target, watts: &watts, fixed: &fixed, min_level, near, errors_kept, stated: &stated };
+    let task = DimTask { targets: &options.target, watts: &watts, fixed: &fixed, min_level, near, errors_kept };
     let found = watched(Reporter::new(quiet), None, interrupted, |watch| found_dimming(scene, &task, Execution::detect(), watch))?;
     tell(&options.measuring.stage, quiet, &found.diagnostics);
     found.notes.iter().filter(|_| !quiet).for_each(|note| say(note));

@@ -27,7 +27,4 @@ pub(super) fn report(scene: &Scene, materials: &MaterialTable, lights: &LightTab
     if materials.media.scatters() || materials.media.shines() {
         warn("light that media scatter lights surfaces, but is not seen itself; what they send is missing");
     }
-    if (0..materials.numbers.len()).any(|material| materials.emits_unknown(material)) {
-        warn("surfaces whose emission depends on the bounces before shine, but light nothing");
-    }
 }

@@ -38,6 +38,19 @@ fn mean(image: &LightTexture) -> [f32; 3] {
     sum.map(|sum| (sum / (image.rgb.len() / 3).max(1) as f64) as f32)
 }
 
+/// By light that has a place, the mean of the picture over it: read for that alone, where there is one.
+pub(super) fn picture_means(scene: &Scene) -> Vec<Option<[f32; 3]>> {
+    let luminaires = Scene { lights: scene.lights.iter().filter(|light| light.is_luminaire()).cloned().collect(), ..Scene::default() };
+    let pictures = Scene { textures: scene.textures.clone(), ..luminaires };
+    if pictures.lights.iter().all(|light| light.texture.is_none()) {
+        return vec![None; scene.lights.len()];
+    }
+    let stamps: Vec<Stamp> = scene.textures.iter().map(Stamp::of).collect();
+    let loaded = light_images(&pictures, &stamps, &KeptImages::default());
+    let images = loaded.finish(scene, &stamps, &mut KeptImages::default(), &mut Vec::new());
+    images.means(scene)
+}
+
 /// A texture in a layout, and what came of it.
 struct Loaded {
     texture: usize,

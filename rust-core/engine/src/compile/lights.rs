@@ -26,7 +26,7 @@ use crate::{
 use std::sync::Arc;
 
 /// Emissive triangles beyond this many are found by scattered rays alone: a table of more would cost more than it saves.
-const MOST_EMISSIVE_TRIANGLES: usize = 200_000;
+pub(super) const MOST_EMISSIVE_TRIANGLES: usize = 200_000;
 
 /// The most that light off the axis may be of that along it.
 const MOST_TINT: f32 = 1e3;
@@ -375,6 +375,14 @@ fn emissive_triangles(
         let moves = motion::moves(group, &scene.settings) || motion::deforms(mesh, &scene.settings);
         if emits && moves {
             let message = "it shines and moves; its light is found by chance, without light sampling";
+            diagnostics.push(Diagnostic::info(&group.origin, message));
+        }
+        let all = records.len() + mesh.triangles.len() * group.transforms.len();
+        if emits && !moves && all > MOST_EMISSIVE_TRIANGLES {
+            let message = format!(
+                "it shines with more than {MOST_EMISSIVE_TRIANGLES} triangles, with those before it; light of what is beyond is found by chance, \
+                 without light sampling"
+            );
             diagnostics.push(Diagnostic::info(&group.origin, message));
         }
         for transform in &group.transforms {

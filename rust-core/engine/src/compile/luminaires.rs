@@ -14,13 +14,18 @@ use crate::{
 /// Luminous flux in lm of each of the scene's lights, dimming included. None of lights at infinity, of portals, and of lights with an image over
 /// them; 0 where a quantity cannot be had.
 pub fn luminous_fluxes(scene: &Scene) -> Vec<Option<f64>> {
-    of_luminaires(scene, |_, records, goniograms, far_fields| quantity::flux_of(records, goniograms, far_fields))
+    of_luminaires(scene, &[], |_, records, goniograms, far_fields| quantity::flux_of(records, goniograms, far_fields))
+}
+
+/// The same with those that have a picture over them, which is read for it.
+pub(crate) fn luminous_fluxes_of_all(scene: &Scene) -> Vec<Option<f64>> {
+    of_luminaires(scene, &picture_means(scene), |_, records, goniograms, far_fields| quantity::flux_of(records, goniograms, far_fields))
 }
 
 /// What `asked` makes of the luminous intensity of each of the scene's lights that [`luminous_fluxes`] knows, by its number: cd, dimming included, towards a
 /// direction of length 1.
 pub fn luminous_intensities<T>(scene: &Scene, mut asked: impl FnMut(usize, &dyn Fn([f64; 3]) -> f64) -> T) -> Vec<Option<T>> {
-    of_luminaires(scene, |number, records, goniograms, _| {
+    of_luminaires(scene, &[], |number, records, goniograms, _| {
         let far_field = FarField::new(records, &goniograms.tables);
         asked(number, &|direction| far_field.in_direction(direction)[0])
     })
@@ -35,16 +40,18 @@ pub fn stated_directions(light: &Light) -> Vec<[f64; 3]> {
     goniogram.horizontal_deg.iter().flat_map(|h| goniogram.vertical_deg.iter().map(move |v| of(h, v))).collect()
 }
 
-/// What is asked of the number and the records of each light that sends the same everywhere on its surface.
+/// What is asked of the number and the records of each light that sends the same everywhere on its surface, or has a mean of its picture in `means`.
 fn of_luminaires<T>(
     scene: &Scene,
+    means: &[Option<[f32; 3]>],
     mut asked: impl FnMut(usize, &[LightRecord], &mut CompiledGoniograms, &mut FarFields) -> T,
 ) -> Vec<Option<T>> {
     let mut goniograms = CompiledGoniograms::default();
     let mut far_fields = FarFields::default();
     let of_light = |(number, light): (usize, &Light)| {
-        (light.is_luminaire() && light.texture.is_none()).then(|| {
-            let records = records(light, [0.0; 3], &mut goniograms, &mut far_fields);
+        let mean = means.get(number).copied().flatten();
+        (light.is_luminaire() && (light.texture.is_none() || mean.is_some())).then(|| {
+            let records = dimmed(records(light, [0.0; 3], &mut goniograms, &mut far_fields), mean);
             asked(number, &records, &mut goniograms, &mut far_fields)
         })
     };
@@ -69,14 +76,19 @@ pub(crate) fn luminaires(scene: &Scene, origin: [f64; 3], means: &[Option<[f32; 
     let mut goniograms = CompiledGoniograms::default();
     let mut far_fields = FarFields::default();
     let luminaire = |(number, light): (usize, &Light)| {
-        let mut records = records(light, origin, &mut goniograms, &mut far_fields);
-        let mean = means.get(number).copied().flatten().unwrap_or([1.0; 3]);
-        records.iter_mut().for_each(|record| record.radiance = std::array::from_fn(|k| record.radiance[k] * mean[k]));
+        let records = dimmed(records(light, origin, &mut goniograms, &mut far_fields), means.get(number).copied().flatten());
         let alone = |record: LightRecord| LightTable::build(&[record], &[] as &[LightTexture], &goniograms.tables);
         let emitters = records.into_iter().map(alone).collect();
         Luminaire { centre: light.transform.point([0.0; 3]), emitters, is_one: light.goniogram.is_some(), casts_shadow: light.casts_shadow }
     };
     scene.lights.iter().enumerate().filter(|(_, light)| light.is_luminaire() && !light.takes_away()).map(luminaire).collect()
+}
+
+/// Emitters that send what a picture over them lets through in the mean, where there is one.
+fn dimmed(mut records: Vec<LightRecord>, mean: Option<[f32; 3]>) -> Vec<LightRecord> {
+    let mean = mean.unwrap_or([1.0; 3]);
+    records.iter_mut().for_each(|record| record.radiance = std::array::from_fn(|k| record.radiance[k] * mean[k]));
+    records
 }
 
 /// The light's emitters as strong as it is; what cannot be used is reported when the scene is compiled.

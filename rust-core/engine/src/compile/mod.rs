@@ -52,6 +52,7 @@ mod strand_materials;
 mod textures;
 mod times;
 mod trees;
+mod unfollowed;
 mod view;
 mod wavelengths;
 mod whitted;
@@ -68,8 +69,9 @@ pub use bounds::Bounds;
 pub(crate) use casters::Casters;
 pub use compiled::{CompileStatistics, CompiledScene};
 pub(crate) use dice::is_diced;
-pub(crate) use luminaires::{Luminaire, luminaires};
+pub(crate) use luminaires::{Luminaire, luminaires, luminous_fluxes_of_all};
 pub use luminaires::{luminous_fluxes, luminous_intensities, stated_directions};
+pub(crate) use unfollowed::unfollowed;
 pub use view::View;
 pub(crate) use view::{check_tiles, picture_view, transport, window};
 
@@ -78,7 +80,7 @@ use crate::{
     error::{Diagnostic, Result},
     film::Besides,
     light::LightTable,
-    scene::{Manifests, MatteName, Scene, matte_id},
+    scene::{Integrator, Manifests, MatteName, Scene, matte_id},
     threads::in_pool,
     transport::{MaterialTable, MatteNames, NameRun, Tables},
 };
@@ -118,6 +120,9 @@ fn laid_out(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicBool
     let mut tables = tables(scene, bvh, &mut looks, &mut shapes, lights);
     tables.wavelengths = looks.spectra.table(scene, &looks.metals);
     lamps_in_media::find(scene, &mut tables, &of_light, &mut diagnostics);
+    if scene.settings.integrator == Integrator::Light {
+        diagnostics.extend(unfollowed(scene, &tables));
+    }
     let mut compiled = CompiledScene {
         tables,
         cameras: scene.cameras.clone(),

@@ -2,7 +2,7 @@
 
 use super::DimTask;
 use crate::{
-    compile::luminous_fluxes,
+    compile::luminous_fluxes_of_all,
     error::{Diagnostic, Error, Result},
     scene::{Light, OTHER_LIGHTS, Origin, Scene},
 };
@@ -60,15 +60,14 @@ impl LightGroup {
             return Err(Error::setting("fixed", format!("group '{name}' is fixed at {level}, expected a level from 0 to 1")));
         }
         let of = |list: &[(String, f64)], name: &str| list.iter().rev().find(|(known, _)| known == name).map(|(_, number)| *number);
-        let fluxes = luminous_fluxes(scene);
+        let fluxes = luminous_fluxes_of_all(scene);
         let group = |name: &String| {
             let belongs = |light: &Light| light.group == *name && !light.portal;
             let lights: Vec<usize> = (0..scene.lights.len()).filter(|k| belongs(&scene.lights[*k])).collect();
             let mut prims: Vec<String> = lights.iter().map(|k| scene.lights[*k].origin.name.to_string()).collect();
             prims.sort();
             prims.dedup();
-            let (watts, source) =
-                of(watts, name).map_or_else(|| power(task, scene, (&lights, &fluxes)), |watts| (watts, PowerSource::Option));
+            let (watts, source) = of(watts, name).map_or_else(|| power(scene, (&lights, &fluxes)), |watts| (watts, PowerSource::Option));
             if source == PowerSource::Flux {
                 notes.push(format!("light group '{name}': no power is stated for it, or for some of it; its flux counts at 100 lm/W"));
             }
@@ -99,11 +98,11 @@ fn names(scene: &Scene, told: &mut Vec<Diagnostic>) -> Result<Vec<String>> {
 }
 
 /// Power in W of lights at level 1, by their files or else by their flux; light from infinity takes none.
-fn power(task: &DimTask<'_>, scene: &Scene, (lights, fluxes): (&[usize], &[Option<f64>])) -> (f64, PowerSource) {
+fn power(scene: &Scene, (lights, fluxes): (&[usize], &[Option<f64>])) -> (f64, PowerSource) {
     let mut source = PowerSource::Files;
     let mut watts = 0.0;
     for k in lights.iter().filter(|k| !scene.lights[**k].shape.is_at_infinity()) {
-        watts += (task.stated)(&scene.lights[*k]).unwrap_or_else(|| {
+        watts += scene.lights[*k].goniogram.as_ref().and_then(|file| file.watts).unwrap_or_else(|| {
             source = PowerSource::Flux;
             fluxes.get(*k).copied().flatten().unwrap_or(0.0) / LUMENS_PER_WATT
         });

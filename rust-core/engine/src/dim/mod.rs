@@ -9,7 +9,7 @@ pub use groups::{LightGroup, PowerSource};
 use crate::{
     error::{Diagnostic, Error, Result},
     measure::Watch,
-    scene::{Light, Scene},
+    scene::Scene,
 };
 use asked::Asked;
 use contributions::Run;
@@ -30,7 +30,7 @@ pub enum Near {
 }
 
 /// What is asked of a scene that has meters and grids.
-#[expect(missing_debug_implementations, reason = "it holds a function")]
+#[derive(Clone, Debug)]
 pub struct DimTask<'a> {
     /// Targets as `gonio_dimming::Target::parse` reads them.
     pub targets: &'a [String],
@@ -44,8 +44,6 @@ pub struct DimTask<'a> {
     pub near: Near,
     /// Standard errors to keep from each limit.
     pub errors_kept: f64,
-    /// The power of a light at level 1 as a file states it, W.
-    pub stated: &'a dyn Fn(&Light) -> Option<f64>,
 }
 
 /// Groups with what was measured of them, and the levels that were found.

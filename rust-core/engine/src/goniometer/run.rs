@@ -5,7 +5,7 @@ use super::{
     tally::Instrument,
 };
 use crate::{
-    compile::{CompiledScene, compile, transport},
+    compile::{CompiledScene, compile, transport, unfollowed},
     error::{Diagnostic, Result},
     scene::{Origin, Scene, Settings, Transform},
     transport::Transport,
@@ -43,6 +43,7 @@ pub fn measure(
     let scene = sources::luminaire(scene, &mut diagnostics)?;
     let compiled = compile(&scene, None, cancel)?;
     diagnostics.extend(compiled.diagnostics.iter().cloned());
+    diagnostics.extend(unfollowed(&scene, &compiled.tables));
     let bounds = sources::bounds(&scene, &options.rays, &Transform::IDENTITY);
     let body = sources::bounds(&scene, &options.rays, &options.frame.from_world());
     let sources = Sources::new(&compiled, &bounds, &options, &mut diagnostics)?;

@@ -88,6 +88,13 @@ pub(super) fn luminaire(scene: &Scene, diagnostics: &mut Vec<Diagnostic>) -> Res
     for light in scene.lights.iter().filter(|light| !belongs(light)) {
         diagnostics.push(Diagnostic::warning(&light.origin, "lights at infinity and portals are no part of a luminaire; it is left out"));
     }
+    for light in scene.lights.iter().filter(|light| belongs(light) && light.dimming != 1.0) {
+        let message = format!(
+            "dimming and maintenance make it {:.4} of what it is in full, which is in the figures: leave them out where the file is placed",
+            light.dimming
+        );
+        diagnostics.push(Diagnostic::warning(&light.origin, message));
+    }
     Ok(Scene {
         lights: scene.lights.iter().filter(|light| belongs(light)).cloned().collect(),
         cameras: Vec::new(),

@@ -10,7 +10,7 @@ use super::{
     texels::{TexelChart, coordinates, resolution},
 };
 use crate::{
-    compile::{CompiledScene, transport},
+    compile::{CompiledScene, transport, unfollowed},
     error::{Diagnostic, Error, Result},
     light::EmissionSampler,
     light_paths::{Batch, Channels, Collector, FixedSums, Job, Watch, trace_batches},
@@ -132,6 +132,7 @@ pub fn illumination_maps(
     let (emitted, cut_off) = (lumens(0), lumens(1));
     let error = mean_error(&places, &table, &areas);
     let mut diagnostics = diagnostics(&surfaces, &charts);
+    diagnostics.extend(unfollowed(scene, &compiled.tables));
     let finished = surfaces.into_iter().zip(charts).zip(areas).enumerate();
     let of = |(number, ((surface, chart), areas)): (usize, ((MappedSurface, Chart), Vec<f64>))| {
         finish(surface, chart, &areas, paths as f64, options, &|side, cell| table.row(places.row(number, cell, side)))
