@@ -69,6 +69,7 @@ class GONIO_OT_annual_daylight(OnGrids, bpy.types.Operator):
         )
 
     def _publish(self, context, meter, found):
+        meter.report.add_render(found[0].diagnostics if found else [])
         report.publish(meter.report)
         measuring.latest.years = {reading.name: measuring.year_lines(reading) for reading in found}
         for reading in found:

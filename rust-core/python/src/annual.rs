@@ -4,7 +4,7 @@ use crate::{
     array::Array,
     daylight::up_axis,
     description,
-    error::{exception, setting},
+    error::{self, exception, setting},
     scene::Scene,
     watched::{unless, watched},
 };
@@ -32,6 +32,7 @@ pub(crate) struct AnnualReading {
     place: AnnualGrid,
     grid: Grid,
     series: Series,
+    diagnostics: Vec<(String, String)>,
 }
 
 #[pymethods]
@@ -89,6 +90,11 @@ impl AnnualReading {
     #[getter]
     fn direct(&self) -> Array {
         self.rows(self.series.direct.as_deref().unwrap_or_default())
+    }
+    /// What differs from what was asked for, of all grids: pairs of origin and message.
+    #[getter]
+    fn diagnostics(&self) -> Vec<(String, String)> {
+        self.diagnostics.clone()
     }
     fn __repr__(&self) -> String {
         let Grid { sda_300_50, mean_lx, points, .. } = &self.grid;
@@ -148,11 +154,13 @@ pub(crate) fn annual(
     };
     let ask = |py: Python<'_>, _: Option<&gonio::render::Progress>| unless(py, cancelled.as_ref());
     watched(py, ask, |stop, progress| {
-        let (grids, _) = AnnualGrid::all(&open)?;
+        let (grids, mut diagnostics) = AnnualGrid::all(&open)?;
         let mut watch = Watch { previous: None, cancel: stop, progress };
-        let (groups, _) = trace(&open, &grids, &task, Execution::detect(), &mut watch)?;
+        let (groups, of_light) = trace(&open, &grids, &task, Execution::detect(), &mut watch)?;
+        diagnostics.extend(of_light);
+        let diagnostics = error::told(&diagnostics);
         let settings = Settings { sky, memory: MEMORY, threads: gonio::threads::available_threads(), electric };
-        grids.into_iter().zip(groups).map(|(place, group)| reading(place, group, (&year, &schedule), &settings)).collect()
+        grids.into_iter().zip(groups).map(|(place, group)| reading((place, group, &diagnostics), (&year, &schedule), &settings)).collect()
     })
 }
 
@@ -182,12 +190,16 @@ pub(crate) fn model(name: &str) -> PyResult<Model> {
 }
 
 /// A grid's year.
-fn reading(place: AnnualGrid, group: Group, (year, schedule): (&Year, &Schedule), settings: &Settings) -> Result<AnnualReading, Error> {
+fn reading(
+    (place, group, diagnostics): (AnnualGrid, Group, &[(String, String)]),
+    (year, schedule): (&Year, &Schedule),
+    settings: &Settings,
+) -> Result<AnnualReading, Error> {
     let mut series = Series::new(place.positions.len(), year.steps.len());
     let mut take = |chunk: &Chunk<'_>| {
         series.take(chunk);
         true
     };
     let grid = evaluate(year, schedule, &[group], settings, &mut take).map_err(told)?.ok_or(Error::Cancelled)?;
-    Ok(AnnualReading { place, grid, series })
+    Ok(AnnualReading { place, grid, series, diagnostics: diagnostics.to_vec() })
 }

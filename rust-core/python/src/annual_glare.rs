@@ -5,7 +5,7 @@ use crate::{
     array::Array,
     daylight::up_axis,
     description,
-    error::exception,
+    error::{self, exception},
     scene::Scene,
     watched::{unless, watched},
 };
@@ -29,6 +29,7 @@ pub(crate) struct AnnualGlareReading {
     glare: EyeGlare,
     errors: Option<EyeGlare>,
     values: Vec<f32>,
+    diagnostics: Vec<(String, String)>,
 }
 
 #[pymethods]
@@ -52,6 +53,11 @@ impl AnnualGlareReading {
     #[getter]
     fn standard_errors<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         description::to_python(py, &self.errors)
+    }
+    /// What differs from what was asked for, of all eyes: pairs of origin and message.
+    #[getter]
+    fn diagnostics(&self) -> Vec<(String, String)> {
+        self.diagnostics.clone()
     }
     /// What EN 17037 calls it: 'high', 'medium', 'minimum' or 'below the minimum'.
     #[getter]
@@ -107,6 +113,7 @@ pub(crate) fn annual_glare(
         }
         let traced = trace_eyes(&scene, &eyes, &task, Execution::detect(), &mut Watch { previous: None, cancel: stop, progress })?;
         let settings = Settings { sky, memory: crate::annual::MEMORY, threads: gonio::threads::available_threads(), electric: None };
+        let diagnostics = error::told(&traced.diagnostics);
         let found =
             GlareYear::new(&year, &schedule, (traced.views, traced.group), &settings, &|| true).map_err(told)?.ok_or(Error::Cancelled)?;
         let reading = |(number, (eye, (glare, errors))): (usize, (Eye, (EyeGlare, Option<EyeGlare>)))| AnnualGlareReading {
@@ -114,6 +121,7 @@ pub(crate) fn annual_glare(
             glare,
             errors,
             values: found.values(number).to_vec(),
+            diagnostics: diagnostics.clone(),
         };
         Ok(eyes.iter().cloned().zip(found.glare(&schedule)).enumerate().map(reading).collect())
     })

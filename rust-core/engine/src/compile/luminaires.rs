@@ -2,6 +2,7 @@
 
 use super::{
     goniograms::CompiledGoniograms,
+    light_images::picture_means,
     lights::{emitters, record},
     openings::Part,
     quantity::{self, FarFields},
