@@ -1,8 +1,8 @@
 //! `gonio info`.
 
 use super::{
-    arguments::InfoOptions, explain, lamps_in_view, light_numbers, light_words::describe, messages::print, render::stage_options,
-    stage::Stage, volume,
+    arguments::InfoOptions, explain, lamps_in_view, light_numbers, light_words::describe, messages::diagnostics_json, messages::print,
+    render::stage_options, stage::Stage, volume,
 };
 use gonio::{
     Diagnostic, Result,
@@ -60,7 +60,7 @@ fn as_json(loaded: &gonio_usd::Loaded, compiled: &CompiledScene, diagnostics: &[
         "bounds": if compiled.bounds.is_empty() { Value::Null } else { json!([compiled.bounds.min, compiled.bounds.max]) },
         "lights": light_numbers::lights(&loaded.scene),
         "emissive_materials": light_numbers::emissive_materials(&loaded.scene),
-        "diagnostics": diagnostics.iter().map(|d| json!({ "origin": &*d.origin.name, "message": d.message })).collect::<Vec<_>>(),
+        "diagnostics": diagnostics_json(diagnostics.iter().copied()),
     })
 }
 

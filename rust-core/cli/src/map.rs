@@ -5,6 +5,7 @@ use super::{
     daylight, falsecolor,
     file::{check_ending, check_targets, ending, print_path, put, write_or_keep},
     interrupt::goes_on,
+    messages::diagnostics_json,
     messages::print,
     messages::say,
     messages::tell,
@@ -14,7 +15,7 @@ use super::{
     stage::{Stage, light_model},
 };
 use gonio::{
-    Error, Result,
+    Diagnostic, Error, Result,
     compile::compile,
     light_paths::Watch,
     map::{
@@ -102,7 +103,8 @@ fn run(
         falsecolor::write(path, &style.draw(&values, size))?;
     }
     if options.json {
-        print(&as_json(&maps, seconds).to_string());
+        let before: Vec<Diagnostic> = loaded.diagnostics.iter().chain(&compiled.diagnostics).cloned().collect();
+        print(&as_json(&maps, seconds, &before).to_string());
     } else {
         as_text(&maps, seconds).iter().for_each(|line| print(line));
         written.iter().chain(options.output.iter().filter(|path| ending(path) == "png")).for_each(|path| print_path(path));
@@ -262,7 +264,7 @@ fn as_text(maps: &IlluminationMaps, seconds: f64) -> Vec<String> {
     lines
 }
 
-fn as_json(maps: &IlluminationMaps, seconds: f64) -> Value {
+fn as_json(maps: &IlluminationMaps, seconds: f64, of_stage: &[Diagnostic]) -> Value {
     let side = |(map, side): (&SurfaceMap, usize)| {
         let summary = &map.summaries[side];
         json!({
@@ -287,5 +289,6 @@ fn as_json(maps: &IlluminationMaps, seconds: f64) -> Value {
         "cut_off_lm": maps.cut_off,
         "memory_bytes": maps.memory,
         "surfaces": lit(maps).map(side).collect::<Vec<_>>(),
+        "diagnostics": diagnostics_json(of_stage.iter().chain(&maps.diagnostics)),
     })
 }

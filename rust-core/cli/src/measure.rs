@@ -6,6 +6,7 @@ use super::{
     file::{check_ending, check_targets, print_path, put},
     glare::coverage_json,
     interrupt::goes_on,
+    messages::diagnostics_json,
     messages::print,
     messages::tell,
     progress::Reporter,
@@ -14,7 +15,7 @@ use super::{
     stage::{Stage, light_model},
 };
 use gonio::{
-    Error, Result,
+    Diagnostic, Error, Result,
     compile::CompiledScene,
     measure::{
         ColourReading, GridReading, MOST_BOUNCES, Measurements, MeterReading, Reading, SensorGrid, Summary, Watch, csv,
@@ -103,7 +104,7 @@ fn run(options: &MeasureOptions, loaded: Loaded, interrupted: &'static AtomicBoo
         draw(&found.grids, path, !measuring.quiet && !measuring.json, scale)?;
     }
     if measuring.json {
-        print(&as_json(&found).to_string());
+        print(&as_json(&found, &loaded.diagnostics).to_string());
     } else {
         found.meters.iter().for_each(|meter| print(&meter_line(meter)));
         SensorGrid::all(&found.meters).iter().flat_map(sensor_grid_lines).for_each(|line| print(&line));
@@ -256,7 +257,8 @@ fn grid_lines(grid: &GridReading) -> Vec<String> {
     lines
 }
 
-fn as_json(found: &Measurements) -> Value {
+/// `of_stage`: what was not as asked before anything was measured.
+fn as_json(found: &Measurements, of_stage: &[Diagnostic]) -> Value {
     let meter = |meter: &MeterReading| {
         json!({
             "name": &*meter.meter.origin.name,
@@ -292,6 +294,7 @@ fn as_json(found: &Measurements) -> Value {
         "meters": found.meters.iter().map(meter).collect::<Vec<_>>(),
         "sensor_grids": sensors.iter().map(|grid| summary_json(&grid.name, grid.measurand, &grid.summary)).collect::<Vec<_>>(),
         "grids": found.grids.iter().map(grid).collect::<Vec<_>>(),
+        "diagnostics": diagnostics_json(of_stage.iter().chain(&found.diagnostics)),
     })
 }
 

@@ -3,6 +3,7 @@
 use super::arguments::StageArguments;
 use gonio::{Diagnostic, Error, Severity};
 use gonio_formats::tame;
+use serde_json::{Value, json};
 use std::{
     io::{self, Write},
     path::Path,
@@ -43,6 +44,15 @@ pub(super) fn tell(stage: &StageArguments, is_quiet: bool, diagnostics: &[Diagno
     if !is_quiet {
         list(diagnostics, if stage.verbose { usize::MAX } else { MOST_WARNINGS });
     }
+}
+
+/// What is not as asked, for machines: severity (`warning` or `info`), origin, message.
+pub(super) fn diagnostics_json<'a>(diagnostics: impl IntoIterator<Item = &'a Diagnostic>) -> Value {
+    let one = |found: &Diagnostic| {
+        let severity = if found.severity == Severity::Warning { "warning" } else { "info" };
+        json!({ "severity": severity, "origin": &*found.origin.name, "message": found.message })
+    };
+    diagnostics.into_iter().map(one).collect()
 }
 
 /// Lists what is not as asked: warnings line by line, at most `most`, and how many more there are.

@@ -5,7 +5,7 @@ use crate::{
     arguments::AnnualGlareOptions,
     file::{check_targets, print_path, put},
     measure::{apply_settings, author_grids, triple, watched},
-    messages::{print, tell},
+    messages::{diagnostics_json, print, tell},
     progress::Reporter,
     render::stage_options,
     stage::Stage,
@@ -58,8 +58,9 @@ pub(crate) fn annual_glare(py: Python<'_>, options: &AnnualGlareOptions, interru
         let follow = |watch: &mut gonio::measure::Watch<'_>| trace_eyes(&loaded.scene, &eyes, &task, Execution::detect(), watch);
         let traced = watched(Reporter::new(options.quiet), None, interrupted, follow)?;
         tell(&traced.diagnostics);
+        let told: Vec<Diagnostic> = loaded.diagnostics.iter().chain(&traced.diagnostics).cloned().collect();
         let glare = rated(options, (&year, &schedule), traced, interrupted)?;
-        finish(options, (&year, &schedule), &eyes, &glare)
+        finish(options, (&year, &schedule), (&eyes, &told), &glare)
     })
 }
 
@@ -112,7 +113,12 @@ fn rated(
 }
 
 /// Tells and writes.
-fn finish(options: &AnnualGlareOptions, (year, schedule): (&Year, &Schedule), eyes: &[Eye], glare: &GlareYear) -> Result<i32> {
+fn finish(
+    options: &AnnualGlareOptions,
+    (year, schedule): (&Year, &Schedule),
+    (eyes, told): (&[Eye], &[Diagnostic]),
+    glare: &GlareYear,
+) -> Result<i32> {
     let figures = glare.glare(schedule);
     if let Some(folder) = &options.year.output {
         for path in written(folder, year, eyes, (glare, &figures))? {
@@ -142,6 +148,7 @@ fn finish(options: &AnnualGlareOptions, (year, schedule): (&Year, &Schedule), ey
             "used_steps": schedule.count(),
             "views": eyes.iter().zip(&figures).map(eye).collect::<Vec<_>>(),
             "views_within_5_percent": shares,
+            "diagnostics": diagnostics_json(told),
         });
         print(&value.to_string());
         return Ok(0);

@@ -9,7 +9,7 @@ use crate::{
     arguments::AnnualOptions,
     file::{check_targets, print_path},
     measure::{apply_settings, author_grids, watched},
-    messages::{print, tell},
+    messages::{diagnostics_json, print, tell},
     progress::Reporter,
     render::{stage_options, variants},
     stage::Stage,
@@ -50,7 +50,8 @@ pub(crate) fn annual(py: Python<'_>, options: &AnnualOptions, interrupted: &'sta
         tell(&diagnostics);
         let named = |(grid, group): (&AnnualGrid, _)| Named { name: grid.name.clone(), groups: vec![group] };
         let named = grids.iter().zip(groups).map(named).collect();
-        finish(options, &Inputs { year: year.clone(), schedule, grids: named }, &grids, interrupted)
+        let told: Vec<Diagnostic> = loaded.diagnostics.iter().chain(&left_out).chain(&diagnostics).cloned().collect();
+        finish(options, &Inputs { year: year.clone(), schedule, grids: named }, (&grids, &told), interrupted)
     })
 }
 
@@ -81,7 +82,12 @@ fn load(py: Python<'_>, options: &AnnualOptions, more: &[String], interrupted: &
 }
 
 /// Calculates every grid, tells and writes.
-fn finish(options: &AnnualOptions, inputs: &Inputs, grids: &[AnnualGrid], interrupted: &AtomicBool) -> Result<i32> {
+fn finish(
+    options: &AnnualOptions,
+    inputs: &Inputs,
+    (grids, told): (&[AnnualGrid], &[Diagnostic]),
+    interrupted: &AtomicBool,
+) -> Result<i32> {
     let settings = settings(&options.year, Some(&options.lighting), options.work.threads)?;
     let mut found = Vec::new();
     for (named, traced) in inputs.grids.iter().zip(grids) {
@@ -96,7 +102,9 @@ fn finish(options: &AnnualOptions, inputs: &Inputs, grids: &[AnnualGrid], interr
         found.push(placed(as_json(named, &grid), traced));
     }
     if options.year.json {
-        print(&whole(&options.year, &inputs.year, found).to_string());
+        let mut whole = whole(&options.year, &inputs.year, found);
+        whole["diagnostics"] = diagnostics_json(told);
+        print(&whole.to_string());
     }
     Ok(0)
 }

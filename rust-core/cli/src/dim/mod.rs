@@ -6,7 +6,7 @@ use super::{
     arguments::DimOptions,
     file::{check_ending, check_targets, print_path, put},
     measure::{loaded, watched},
-    messages::{print, say, tell},
+    messages::{diagnostics_json, print, say, tell},
     progress::Reporter,
 };
 use gonio::{
@@ -72,7 +72,9 @@ fn factors(found: &Dimming) -> Vec<(String, f64)> {
 
 fn show(options: &DimOptions, found: &Dimming) {
     if options.measuring.json {
-        print(&found.json().to_string());
+        let mut whole = found.json();
+        whole["diagnostics"] = diagnostics_json(&found.diagnostics);
+        print(&whole.to_string());
         return;
     }
     shown::lines(found).iter().for_each(|line| print(line));

@@ -1,6 +1,6 @@
 //! What was measured, for machines.
 
-use crate::{arguments::GoniometerOptions, photometry};
+use crate::{arguments::GoniometerOptions, messages::diagnostics_json, photometry};
 use gonio::{
     Diagnostic,
     goniometer::{Reading, Value as Measured, colour},
@@ -60,6 +60,6 @@ pub(super) fn as_json(options: &GoniometerOptions, reading: &Reading, reduced: &
         "rays": reading.paths,
         "seconds": reading.elapsed.as_secs_f64(),
         "converged": reading.converged,
-        "diagnostics": diagnostics.iter().map(|d| json!({ "origin": &*d.origin.name, "message": d.message })).collect::<Vec<_>>(),
+        "diagnostics": diagnostics_json(diagnostics),
     })
 }

@@ -1,7 +1,7 @@
 //! What `gonio annual` and `gonio annual-metrics` print: a year of daylight.
 
 use super::{
-    area::{Area, Figure},
+    area::{Area, Figure, with_notes},
     object::{Found, number, objects, text},
     table,
 };
@@ -20,7 +20,8 @@ const SHOWN: [(&str, &str); 5] = [
 const NO_FIGURES: [&str; 3] = ["columns", "rows", "used_hours"];
 
 pub(super) fn read(whole: &Map<String, Value>, file: usize) -> Found<Vec<Area>> {
-    objects(whole, "grids")?.into_iter().map(|of| grid(of, file)).collect()
+    let areas: Found<Vec<Area>> = objects(whole, "grids")?.into_iter().map(|of| grid(of, file)).collect();
+    Ok(with_notes(areas?, whole))
 }
 
 fn grid(of: &Map<String, Value>, file: usize) -> Found<Area> {

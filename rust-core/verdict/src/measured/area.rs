@@ -56,8 +56,13 @@ impl Area {
 
 /// Areas whose figures have the notes of their file.
 pub(super) fn with_notes(mut areas: Vec<Area>, whole: &Map<String, Value>) -> Vec<Area> {
-    let told = whole.get("notes").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_str);
-    let notes: Vec<Note> = told.map(|words| Note::Told(words.to_owned())).collect();
+    let listed = |key: &str| whole.get(key).and_then(Value::as_array).into_iter().flatten();
+    let told = listed("notes").filter_map(Value::as_str).map(str::to_owned);
+    let warnings = listed("diagnostics").filter(|found| found["severity"] == "warning").filter_map(|found| {
+        let [origin, message] = [&found["origin"], &found["message"]].map(Value::as_str);
+        Some(format!("{}: {}", origin?, message?))
+    });
+    let notes: Vec<Note> = told.chain(warnings).map(Note::Told).collect();
     let figures = areas.iter_mut().flat_map(|area| &mut area.figures);
     figures.for_each(|figure| figure.notes.extend(notes.iter().cloned()));
     areas

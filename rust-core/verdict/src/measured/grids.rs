@@ -1,7 +1,7 @@
 //! What `gonio measure` prints: meters, sensor grids of models, and grids.
 
 use super::{
-    area::{Area, Figure},
+    area::{Area, Figure, with_notes},
     colour::{beside, is_of_colour},
     object::{Found, error, number, objects, text},
 };
@@ -17,7 +17,8 @@ pub(super) fn read(whole: &Map<String, Value>, file: usize) -> Found<Vec<Area>> 
     let grids = objects(whole, "grids")?.into_iter().map(|of| grid(of, file));
     // Files of before have none.
     let together = if whole.contains_key("sensor_grids") { objects(whole, "sensor_grids")? } else { Vec::new() };
-    meters.chain(together.into_iter().map(|of| grid(of, file))).chain(grids).collect()
+    let areas: Found<Vec<Area>> = meters.chain(together.into_iter().map(|of| grid(of, file))).chain(grids).collect();
+    Ok(with_notes(areas?, whole))
 }
 
 /// A figure's name as requirements write it: `daylight_factor`.
