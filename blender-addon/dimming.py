@@ -13,7 +13,9 @@ def apply(scene, levels, report) -> None:
     of_light = {}
     for thing in bpy.data.objects:
         if thing.type == "LIGHT" and thing.users_scene:
-            of_light.setdefault(thing.data, set()).add(levels.get(thing.lightgroup, 1.0))
+            # Lamps of other scenes were not measured.
+            level = levels.get(thing.lightgroup, 1.0) if scene in thing.users_scene else 1.0
+            of_light.setdefault(thing.data, set()).add(level)
     for light, found in of_light.items():
         if found == {1.0}:
             continue

@@ -23,7 +23,7 @@ def apply(description, lamp, colour, matrix, report):
     """Gives a lamp's description its photometry; `colour` is what tells its colour alone."""
     settings = lamp.gonio
     description["emission"]["radiance"] = [float(x) for x in colour]
-    description["dimming"] = settings.dimming * settings.maintenance
+    description.update(dimming=settings.dimming, maintenance=settings.maintenance)
     if lamp.type == "AREA" and settings.is_tube:
         ((_, sides),) = description["shape"].items()
         description["shape"] = {"Cylinder": {"radius": 0.5 * sides["height"], "length": sides["width"]}}

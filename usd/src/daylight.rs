@@ -45,6 +45,7 @@ pub(crate) fn add_lights<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, 
         added.casts_shadow = own.casts_shadow;
         (added.diffuse, added.specular, added.volume) = (own.diffuse, own.specular, own.volume);
         added.dimming *= own.dimming;
+        added.maintenance *= own.maintenance;
         added.group.clone_from(&own.group);
         added.origin = prim.origin();
         added.transform = transform.after(&added.transform);

@@ -74,6 +74,7 @@ pub fn light<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, transform: &
         Some(photometry) => Light {
             quantity: photometry.quantity,
             dimming: photometry.dimming,
+            maintenance: photometry.maintenance,
             goniogram: photometry.goniogram.or(light.goniogram),
             shape: photometry.shape.unwrap_or(light.shape),
             transform: photometry.placed.unwrap_or(light.transform),

@@ -39,7 +39,7 @@ pub(crate) fn material<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, bo
             None => context.warn(&origin, "normalize of a mesh light needs the mesh's area, which is zero or unknown; it is ignored"),
         }
     }
-    let dimming = photometry::dimming(context, prim);
+    let dimming: f32 = photometry::factors(context, prim).into_iter().product();
     radiance = radiance.map(|x| x * dimming);
     photometry::report_unused_of_mesh(context, prim);
     report_left_out(context, prim);

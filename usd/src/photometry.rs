@@ -14,8 +14,10 @@ const PREFIX: &str = "gonio:photometry:";
 pub(crate) struct Photometry {
     /// In place of the schema's intensity.
     pub(crate) quantity: Option<LightQuantity>,
-    /// Dimming times maintenance.
+    /// A dimmer's factor.
     pub(crate) dimming: f32,
+    /// What ageing and soiling leave.
+    pub(crate) maintenance: f32,
     /// A luminaire's, in candela.
     pub(crate) goniogram: Option<Arc<Goniogram>>,
     /// The shape that emits, where it is another than the schema's.
@@ -45,22 +47,21 @@ pub(crate) fn photometry<'py>(
     let quantity = quantity(context, prim).or(path.is_some().then_some(LightQuantity::Measured));
     let goniogram = path.and_then(|path| goniogram(context, prim, &path, quantity));
     let (shape, placed) = opening(context, prim, (shape, transform), goniogram.as_deref()).unzip();
-    let dimming = dimming(context, prim);
+    let [dimming, maintenance] = factors(context, prim);
     let rotation: f64 = attribute(context, prim, "rotation").unwrap_or(0.0);
-    Some(Photometry { quantity, dimming, goniogram, shape, placed: placed.map(|placed| turned(&placed, rotation)) })
+    Some(Photometry { quantity, dimming, maintenance, goniogram, shape, placed: placed.map(|placed| turned(&placed, rotation)) })
 }
 
-/// Dimming times maintenance; 1 where nothing is said.
-pub(crate) fn dimming<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> f32 {
-    let mut factor = |name: &str| {
+/// Dimming and maintenance; 1 where nothing is said.
+pub(crate) fn factors<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> [f32; 2] {
+    ["dimming", "maintenanceFactor"].map(|name| {
         let found: f32 = attribute(context, prim, name).unwrap_or(1.0);
         if found.is_finite() && found >= 0.0 {
             return found;
         }
         context.warn(&prim.origin(), format!("{PREFIX}{name} is {found}, expected a number of zero or more; 1 is used"));
         1.0
-    };
-    factor("dimming") * factor("maintenanceFactor")
+    })
 }
 
 /// The luminaire's file that a prim names.

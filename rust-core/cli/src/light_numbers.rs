@@ -52,6 +52,7 @@ fn numbers(light: &Light, flux: Option<f64>) -> Value {
             _ => None,
         },
         "dimming": light.dimming,
+        "maintenance": light.maintenance,
         "flux_lm": flux,
         "colour": of_luminance_1(light.emission.radiance),
         "textured": light.texture.is_some(),

@@ -88,9 +88,9 @@ fn run(options: &SunlightOptions, loaded: &Loaded, task: &SunlightTask, interrup
     Ok(0)
 }
 
-/// What EN 17037 calls so many hours of a day; none of days that it does not know.
-fn level(hours: f64, day: &Moment) -> Option<&'static str> {
-    let is_known = (DAYS[0]..=DAYS[1]).contains(&(day.month, day.day));
+/// What EN 17037 calls so many hours of a day; none of days that it does not know, and without the least height of the sun that it has for each place.
+fn level(hours: f64, task: &SunlightTask) -> Option<&'static str> {
+    let is_known = task.least_elevation_deg > 0.0 && (DAYS[0]..=DAYS[1]).contains(&(task.day.month, task.day.day));
     let found = LEVELS.iter().find(|(least, _)| hours >= *least - 1e-9).map_or("below the minimum", |(_, name)| name);
     is_known.then_some(found)
 }
@@ -106,10 +106,13 @@ fn as_text(found: &Sunlight, task: &SunlightTask, meters: &[Meter], grids: &[Gri
     let above = if task.least_elevation_deg > 0.0 { format!("{}° above the horizon", task.least_elevation_deg) } else { "up".to_owned() };
     let mut lines =
         vec![format!("{year}-{month:02}-{day:02}: the sun is {above} for {:.2} h (clock of {clock_of_place})", found.possible_hours())];
+    if task.least_elevation_deg <= 0.0 && !meters.is_empty() {
+        lines.push("EN 17037's levels count the sun from a height on that depends on the place: give it as --least-elevation".into());
+    }
     for (number, meter) in meters.iter().enumerate() {
         let spans: Vec<String> = found.spans(number).iter().map(|[from, to]| format!("{}–{}", clock(*from), clock(*to))).collect();
         let spans = if spans.is_empty() { "never".to_owned() } else { spans.join(", ") };
-        let level = level(found.hours(number), &task.day).map_or(String::new(), |level| format!("; EN 17037: {level}"));
+        let level = level(found.hours(number), task).map_or(String::new(), |level| format!("; EN 17037: {level}"));
         lines.push(format!("{}: {:.2} h of sun: {spans}{level}", meter.origin, found.hours(number)));
     }
     for grid in grids {
@@ -130,7 +133,7 @@ fn as_json(found: &Sunlight, task: &SunlightTask, meters: &[Meter], grids: &[Gri
             "normal": meter.normal,
             "hours": found.hours(number),
             "spans_h": found.spans(number),
-            "en17037_level": level(found.hours(number), &task.day),
+            "en17037_level": level(found.hours(number), task),
         })
     };
     let grid = |grid: &GridReading| {

@@ -85,7 +85,7 @@ pub fn sunlight(
     let directions: Vec<[f64; 3]> = suns.iter().map(|(_, sun)| task.frame.to_scene(sun.direction())).collect();
     let up = task.frame.to_scene([0.0, 0.0, 1.0]);
     let angle = SUN_ANGLE_DEG.to_radians();
-    let step_h = task.step_min / 60.0;
+    let step_h = 24.0 / steps(task) as f64;
     if suns.is_empty() {
         return Ok((Sunlight { step_h, suns, seen: vec![Vec::new(); points.len()] }, Vec::new()));
     }
@@ -94,10 +94,15 @@ pub fn sunlight(
     Ok((Sunlight { step_h, suns, seen }, diagnostics))
 }
 
+/// Steps of the day, as long as asked for or nearly so.
+fn steps(task: &SunlightTask) -> usize {
+    (24.0 * 60.0 / task.step_min).round() as usize
+}
+
 /// The sun's places in the middles of the day's steps, those that are high enough.
 fn way(task: &SunlightTask) -> Result<Vec<(f64, SunPosition)>> {
     let air = Air::standard(&task.place.checked()?);
-    let steps = (24.0 * 60.0 / task.step_min).round() as usize;
+    let steps = steps(task);
     let mut suns = Vec::new();
     for step in 0..steps {
         let hour = (step as f64 + 0.5) * 24.0 / steps as f64;

@@ -12,7 +12,7 @@ use gonio::{
     Error,
     annual::{AnnualGrid, AnnualTask, told, trace},
     measure::{MOST_BOUNCES, Watch},
-    scene::Scene as Description,
+    scene::{Integrator, Scene as Description},
     sky::{Frame, SkyModel},
 };
 use gonio_annual::{
@@ -167,6 +167,7 @@ pub(crate) fn annual(
 pub(crate) fn measured(scene: &Description, samples: u32) -> Description {
     let mut scene = scene.clone();
     (scene.settings.samples, scene.settings.max_bounces) = (samples.max(1), MOST_BOUNCES);
+    scene.settings.integrator = Integrator::Path;
     scene
 }
 
@@ -176,7 +177,13 @@ pub(crate) fn used_steps(schedule: Option<&Bound<'_, PyAny>>, year: &Year) -> Py
     let numbers: Vec<f64> = given.extract()?;
     let found = match numbers[..] {
         [from, to] => Schedule::daily(year, from, to),
-        _ => Schedule::new(year, numbers.iter().map(|number| *number != 0.0).collect()),
+        _ => {
+            if let Some(step) = numbers.iter().position(|number| *number != 0.0 && *number != 1.0) {
+                let problem = format!("{} was found at step {}, expected 0 or 1: a step is used or is not", numbers[step], step + 1);
+                return Err(setting("schedule", problem));
+            }
+            Schedule::new(year, numbers.iter().map(|number| *number != 0.0).collect())
+        }
     };
     found.map_err(|error| exception(told(error)))
 }

@@ -9,6 +9,7 @@ use crate::{
 use gonio::{
     dim::{DimTask, Dimming, Near, dim as found_dimming},
     measure::{MOST_BOUNCES, Watch},
+    scene::Integrator,
 };
 use gonio_simd::Execution;
 use pyo3::{
@@ -41,6 +42,7 @@ pub(crate) fn dim<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let mut description = scene.scene.clone();
     (description.settings.samples, description.settings.max_bounces) = (samples.max(1), max_bounces.unwrap_or(MOST_BOUNCES));
+    description.settings.integrator = Integrator::Path;
     let numbers = |of: Option<BTreeMap<String, f64>>| of.into_iter().flatten().collect::<Vec<_>>();
     let (watts, fixed, near) = (numbers(watts), numbers(fixed), wished(near)?);
     let ask = |py: Python<'_>, _: Option<&gonio::render::Progress>| unless(py, cancelled.as_ref());

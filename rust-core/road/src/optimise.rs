@@ -4,6 +4,7 @@ use crate::{
     results::Results,
     road::{Ranges, Road},
 };
+use std::sync::Arc;
 
 /// What was found.
 #[derive(Clone, Debug, serde::Serialize)]
@@ -64,7 +65,12 @@ impl Road {
             tilt: search.best.and_then(|design| design.tilt),
             tried: search.tried,
         };
-        let results = built.evaluate();
+        let mut results = built.evaluate();
+        if self.rows.iter().any(|row| row.offset != 0.0) {
+            results
+                .notes
+                .push("rows keep their offsets in metres at all spacings; rows on the side 'staggered' stay half a spacing apart".into());
+        }
         Some((built, results, best))
     }
 }
@@ -115,7 +121,12 @@ impl Search<'_> {
         for row in &mut road.rows {
             row.spacing = design.spacing;
             row.height = design.height.unwrap_or(row.height);
-            row.tilt = design.tilt.unwrap_or(row.tilt);
+            if let Some(tilt) = design.tilt {
+                if row.goniogram.tilt.is_some() {
+                    row.goniogram = Arc::new(row.goniogram.tilted_on(row.tilt, tilt));
+                }
+                row.tilt = tilt;
+            }
         }
         road
     }

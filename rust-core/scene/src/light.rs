@@ -168,9 +168,12 @@ pub struct Light {
     /// Its strength in another unit, in place of the emission's, whose radiance then tells the colour alone.
     #[serde(default)]
     pub quantity: Option<LightQuantity>,
-    /// Factor on its strength, as a dimmer's and its maintenance's (CIE 97) make it.
+    /// Factor on its strength and on its power: a dimmer's.
     #[serde(default = "whole")]
     pub dimming: f32,
+    /// Factor on its strength alone: what ageing and soiling leave (CIE 97).
+    #[serde(default = "whole")]
+    pub maintenance: f32,
     /// The spectrum of what it sends, whose colour takes the place of the emission's; none: the spectrum is made of the colour.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spectrum: Option<Arc<LampSpectrum>>,
@@ -233,6 +236,7 @@ impl Default for Light {
             quantity: None,
             spectrum: None,
             dimming: whole(),
+            maintenance: whole(),
             shaping: Shaping::default(),
             spot: None,
             group: String::new(),
@@ -255,6 +259,10 @@ impl Default for Light {
 }
 
 impl Light {
+    /// Share of its full strength: dimming times maintenance.
+    pub fn share(&self) -> f32 {
+        self.dimming * self.maintenance
+    }
     /// Whether it has a place, and shines itself.
     pub fn is_luminaire(&self) -> bool {
         !self.shape.is_at_infinity() && !self.portal

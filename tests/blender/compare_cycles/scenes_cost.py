@@ -1,11 +1,14 @@
-"""Scenes whose cost is compared: a head of hair, and a field in motion."""
+"""Scenes whose cost is compared: a head of hair, a field in motion, and media."""
 
 import math
 
 import bpy
 import numpy
+from scenes_cost_media import cloud, fire, milk, street
 from scenes_hair import MELANIN, strands
 from stage import camera, diffuse, even_world, lamp, link, material, plane, resolution, shape
+
+__all__ = ["cloud", "fire", "head", "head_elliptic", "milk", "street", "windmills"]
 
 HAIRS = 100_000
 MILLS = 2_000

@@ -26,7 +26,7 @@ pub(crate) fn emergency(py: Python<'_>, options: &EmergencyOptions, interrupted:
     let (plan, options) = (plan(&options.plan, Plan::read)?, &options.norm);
     let (mut stage, up) = loaded(py, options, interrupted)?;
     let (scene, spots) = (&mut stage.scene, plan.spots(up));
-    let burning = leave_burning(scene, &plan.groups, &plan.lights, "in an emergency")?;
+    let burning = leave_burning(scene, (&plan.groups, &plan.lights), plan.maintenance_factor, "in an emergency")?;
     // What surfaces send on does not count (EN 1838).
     let Found { readings, straight, told } = measured(py, scene, (&spots, &before(&spots)), (options, Integrator::Direct), interrupted)?;
     let not_counted = not_counted(&straight, "points", "counted");
@@ -39,7 +39,10 @@ pub(crate) fn emergency(py: Python<'_>, options: &EmergencyOptions, interrupted:
         |(reading, light): (Reading, &StraightLight)| if light.sees_covered && reading.lx <= 0.0 { Reading::UNKNOWN } else { reading };
     let readings: Vec<Reading> = readings.into_iter().zip(&straight).map(known).collect();
     let notes = not_counted.into_iter().chain(surfaces).map(|note| note.message).collect();
-    let figures = Figures::new(&plan, &spots, &readings, seen(scene, &burning, &plan, up)).with_notes(notes);
+    // Nobody may be dazzled by new lamps either.
+    scene.lights.iter_mut().for_each(|light| light.maintenance = 1.0);
+    let floor = &spots[..spots.len() - plan.places.len()];
+    let figures = Figures::new(&plan, &spots, &readings, seen(scene, &burning, (&plan, floor), up)).with_notes(notes);
     show(options, || figures.json(), || lines(&figures));
     Ok(0)
 }
@@ -51,12 +54,8 @@ fn before(spots: &[Spot]) -> Vec<[f64; 3]> {
     spots.iter().zip(lengths).map(place).collect()
 }
 
-/// Luminaires with their height above the lowest floor of the plan and their greatest intensity within its angles; lights of one prim at one place are one.
-fn seen(scene: &Scene, burning: &[usize], plan: &Plan, up: [f64; 3]) -> Vec<Lamp> {
-    let along = |p: [f64; 3]| p[0] * up[0] + p[1] * up[1] + p[2] * up[2];
-    let corners = plan.routes.iter().flat_map(|route| &route.line).chain(plan.areas.iter().flat_map(|area| &area.outline));
-    let floor = corners.map(|corner| along(*corner)).fold(f64::INFINITY, f64::min);
-    let floor = if floor.is_finite() { floor } else { 0.0 };
+/// Luminaires with their height above the plan's floor and their greatest intensity within its angles; lights of one prim at one place are one.
+fn seen(scene: &Scene, burning: &[usize], (plan, floor): (&Plan, &[Spot]), up: [f64; 3]) -> Vec<Lamp> {
     let (lamps, glare) = (lamps(scene, burning), plan.glare(up));
     let evenly = directions(glare, up);
     let mut peaks = peaks(scene, &lamps, |lights| [&evenly[..], &stated(scene, lights, glare, up)].concat()).into_iter();
@@ -67,10 +66,24 @@ fn seen(scene: &Scene, burning: &[usize], plan: &Plan, up: [f64; 3]) -> Vec<Lamp
             let (light, peak_cd) = (light(lights), peaks.next().flatten());
             // Placements of an instancer have one name.
             let name = if placements.len() > 1 { format!("{}[{number}]", light.origin.name) } else { light.origin.name.to_string() };
-            seen.push(Lamp { name, height: along(light.transform.point([0.0; 3])) - floor, peak_cd });
+            seen.push(Lamp { name, height: above(light.transform.point([0.0; 3]), (plan, floor), up), peak_cd });
         }
     }
     seen
+}
+
+/// Metres from a luminaire down to the plan's floor: to the point of its routes and areas that is next to it in plan, of those that are not above it. None
+/// where there is none.
+fn above(lamp: [f64; 3], (plan, floor): (&Plan, &[Spot]), up: [f64; 3]) -> Option<f64> {
+    let down = |spot: &Spot| {
+        let way: [f64; 3] = std::array::from_fn(|k| lamp[k] - spot.position[k]);
+        let rise = way[0] * up[0] + way[1] * up[1] + way[2] * up[2];
+        let square = way.iter().map(|x| x * x).sum::<f64>();
+        (square - rise * rise, rise + plan.height)
+    };
+    // Of floors one above the other the next one down counts.
+    let nearer = |a: &(f64, f64), b: &(f64, f64)| (1e4 * a.0).round().total_cmp(&(1e4 * b.0).round()).then(a.1.total_cmp(&b.1));
+    floor.iter().map(down).filter(|(_, rise)| *rise > 0.0).min_by(nearer).map(|(_, rise)| rise)
 }
 
 /// The greatest intensity of each luminaire in the directions that are asked of its lights, cd: they add up. None where a picture over a light leaves no

@@ -111,8 +111,8 @@ fn surfaces_left_out(scene: &Scene) -> Option<Diagnostic> {
 }
 
 /// Leaves the lights of some groups, and those at or under some prims, burning, puts out all others and gives their numbers. Without both all that have a
-/// place burn. `when` is the end of a sentence.
-fn leave_burning(scene: &mut Scene, names: &[String], paths: &[String], when: &str) -> Result<Vec<usize>> {
+/// place burn. A maintenance factor of the plan takes the place of their own. `when` is the end of a sentence.
+fn leave_burning(scene: &mut Scene, (names, paths): (&[String], &[String]), maintenance_factor: f64, when: &str) -> Result<Vec<usize>> {
     let everything = names.is_empty() && paths.is_empty();
     let burns = |light: &Light| {
         let is_lamp = !light.portal && !light.shape.is_at_infinity();
@@ -129,6 +129,9 @@ fn leave_burning(scene: &mut Scene, names: &[String], paths: &[String], when: &s
     for (number, light) in scene.lights.iter_mut().enumerate() {
         if burns(light) {
             burning.push(number);
+            if maintenance_factor != 1.0 {
+                light.maintenance = 1.0;
+            }
         } else {
             light.dimming = 0.0;
         }

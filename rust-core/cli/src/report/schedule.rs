@@ -55,7 +55,7 @@ impl<'a> Schedule<'a> {
             }
             let file = loaded.luminaires.iter().find(|file| file.is_of(light));
             places.push((light.transform.point([0.0; 3]), file.and_then(watts)));
-            let key = format!("{:?} {} {} {flux:.2?}", file.map(|file| &file.path), describe(light), light.dimming);
+            let key = format!("{:?} {} {} {flux:.2?}", file.map(|file| &file.path), describe(light), light.share());
             match kinds.iter_mut().find(|kind| kind.key == key) {
                 Some(known) => known.count += 1,
                 None => kinds.push(kind(key, light, file, flux)),
@@ -158,7 +158,7 @@ fn kind(key: String, light: &Light, file: Option<&LuminaireFile>, flux: Option<f
         count: 1,
         flux,
         watts: file.and_then(watts),
-        dimming: light.dimming,
+        dimming: light.share(),
     }
 }
 

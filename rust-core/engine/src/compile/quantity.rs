@@ -60,7 +60,8 @@ pub(super) fn apply(
     far_fields: &mut FarFields,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
-    let dimming = if light.dimming.is_finite() { f64::from(light.dimming.max(0.0)) } else { 1.0 };
+    let share = light.share();
+    let dimming = if share.is_finite() { f64::from(share.max(0.0)) } else { 1.0 };
     let factor = match light.quantity {
         None => Ok(1.0),
         Some(quantity) => {

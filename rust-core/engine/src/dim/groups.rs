@@ -97,14 +97,17 @@ fn names(scene: &Scene, told: &mut Vec<Diagnostic>) -> Result<Vec<String>> {
     Ok(names)
 }
 
-/// Power in W of lights at level 1, by their files or else by their flux; light from infinity takes none.
+/// Power in W of lights at level 1, as they are dimmed in the scene, by their files or else by their flux when new; light from infinity takes none.
 fn power(scene: &Scene, (lights, fluxes): (&[usize], &[Option<f64>])) -> (f64, PowerSource) {
     let mut source = PowerSource::Files;
     let mut watts = 0.0;
     for k in lights.iter().filter(|k| !scene.lights[**k].shape.is_at_infinity()) {
-        watts += scene.lights[*k].goniogram.as_ref().and_then(|file| file.watts).unwrap_or_else(|| {
+        let light = &scene.lights[*k];
+        let stated = light.goniogram.as_ref().and_then(|file| file.watts);
+        watts += stated.map(|watts| watts * f64::from(light.dimming)).unwrap_or_else(|| {
             source = PowerSource::Flux;
-            fluxes.get(*k).copied().flatten().unwrap_or(0.0) / LUMENS_PER_WATT
+            let flux = fluxes.get(*k).copied().flatten().unwrap_or(0.0);
+            if light.maintenance > 0.0 { flux / f64::from(light.maintenance) / LUMENS_PER_WATT } else { 0.0 }
         });
     }
     (watts, source)

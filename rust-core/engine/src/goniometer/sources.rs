@@ -88,10 +88,10 @@ pub(super) fn luminaire(scene: &Scene, diagnostics: &mut Vec<Diagnostic>) -> Res
     for light in scene.lights.iter().filter(|light| !belongs(light)) {
         diagnostics.push(Diagnostic::warning(&light.origin, "lights at infinity and portals are no part of a luminaire; it is left out"));
     }
-    for light in scene.lights.iter().filter(|light| belongs(light) && light.dimming != 1.0) {
+    for light in scene.lights.iter().filter(|light| belongs(light) && light.share() != 1.0) {
         let message = format!(
             "dimming and maintenance make it {:.4} of what it is in full, which is in the figures: leave them out where the file is placed",
-            light.dimming
+            light.share()
         );
         diagnostics.push(Diagnostic::warning(&light.origin, message));
     }

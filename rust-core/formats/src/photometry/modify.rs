@@ -62,6 +62,15 @@ impl Goniogram {
         }
     }
 
+    /// A luminaire that stands at a tilt of `from` degrees already, brought to one of `to`; as it is where its file has no tilt factors, or no light at
+    /// `from`.
+    #[must_use]
+    pub fn tilted_on(&self, from: f64, to: f64) -> Self {
+        let Some(tilt) = &self.tilt else { return self.clone() };
+        let [old, new] = [from, to].map(|degrees| if degrees == 0.0 { 1.0 } else { tilt.factor(degrees.abs()) });
+        if old > 0.0 && old != new { self.clone().times(new / old) } else { self.clone() }
+    }
+
     /// The luminaire turned about its vertical axis by `degrees`, from C0 towards C90: what shone along C0 shines along C(degrees).
     ///
     /// Type C keeps every tabulated value; types A and B are resampled to type C. The opening follows quarter turns; by other angles one

@@ -9,8 +9,8 @@ use serde_json::{Map, Value, json};
 pub struct Lamp {
     /// Its prim.
     pub name: String,
-    /// Metres above the lowest floor of the plan.
-    pub height: f64,
+    /// Metres above the floor of the plan's routes and areas that is nearest below it; none where none is.
+    pub height: Option<f64>,
     /// Its greatest intensity between the plan's angles, cd, with all of its flux; none where nobody knows it.
     pub peak_cd: Option<f64>,
 }

@@ -21,7 +21,10 @@ pub fn lines(found: &Figures) -> Vec<String> {
         lines.push(format!("greatest intensity from {from}° to {to}° above nadir, with all flux"));
     }
     let peak = |lamp: &Lamp| lamp.peak_cd.map_or("unknown (a picture lies over it)".to_owned(), |peak| format!("{peak:.0} cd"));
-    lines.extend(found.lamps.iter().map(|lamp| format!("  {}: {}, {:.2} m above the floor", lamp.name, peak(lamp), lamp.height)));
+    let height = |lamp: &Lamp| {
+        lamp.height.map_or("no route or area of the plan lies below it".to_owned(), |height| format!("{height:.2} m above the floor"))
+    };
+    lines.extend(found.lamps.iter().map(|lamp| format!("  {}: {}, {}", lamp.name, peak(lamp), height(lamp))));
     lines
 }
 

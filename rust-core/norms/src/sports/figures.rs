@@ -77,8 +77,17 @@ impl Figures {
 
     /// Whether a luminaire stood nearer to a line of sight than CIE 112's formula holds.
     pub fn has_nearer(&self) -> bool {
+        self.ratings().any(|rating| rating.nearer)
+    }
+
+    /// Whether glare is rated anywhere.
+    pub fn is_rated(&self) -> bool {
+        self.ratings().next().is_some()
+    }
+
+    fn ratings(&self) -> impl Iterator<Item = &Rating> {
         let at_points = self.fields.iter().flat_map(|field| &field.glare).map(|(_, rating)| rating);
-        self.observers.iter().map(|(_, rating)| rating).chain(at_points).any(|rating| rating.nearer)
+        self.observers.iter().map(|(_, rating)| rating).chain(at_points)
     }
 
     /// With what the figures leave out.

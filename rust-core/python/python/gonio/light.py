@@ -33,6 +33,7 @@ class Photometry(TypedDict, total=False):
     watts: float | None
     temperature: float | None
     dimming: float
+    maintenance: float
     goniogram: Mapping[str, Any] | None
     opening: Mapping[str, Any] | None
     cosine_power: float
@@ -75,7 +76,7 @@ def light(
         "transform": columns(transform),
         "visibility": {"camera": visible},
         "casts_shadow": True,
-        **{key: given[key] for key in ("dimming", "spot", "group", "goniogram", "texture", "spectrum") if key in given},
+        **{key: given[key] for key in ("dimming", "maintenance", "spot", "group", "goniogram", "texture", "spectrum") if key in given},
     }
 
 

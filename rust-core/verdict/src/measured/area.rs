@@ -57,7 +57,7 @@ impl Area {
 /// Areas whose figures have the notes of their file.
 pub(super) fn with_notes(mut areas: Vec<Area>, whole: &Map<String, Value>) -> Vec<Area> {
     let listed = |key: &str| whole.get(key).and_then(Value::as_array).into_iter().flatten();
-    let told = listed("notes").filter_map(Value::as_str).map(str::to_owned);
+    let told = listed("notes").chain(listed("doubts")).filter_map(Value::as_str).map(str::to_owned);
     let warnings = listed("diagnostics").filter(|found| found["severity"] == "warning").filter_map(|found| {
         let [origin, message] = [&found["origin"], &found["message"]].map(Value::as_str);
         Some(format!("{}: {}", origin?, message?))

@@ -1,6 +1,10 @@
 //! What `gonio road` prints: the road, its footpaths, edges and observers.
 
-use super::{area::Area, object::number, table};
+use super::{
+    area::{Area, with_notes},
+    object::number,
+    table,
+};
 use crate::{note::Note, plan::Plan, unit::Unit};
 use serde_json::{Map, Value};
 use std::path::Path;
@@ -32,7 +36,7 @@ pub(super) fn read(whole: &Map<String, Value>, file: usize) -> Vec<Area> {
     let paths = parts("footpaths", &|of| text(of, "name"));
     let edges = parts("edges", &|of| Some(format!("{} edge", text(of, "side")?)));
     let lanes = parts("observers", &|of| Some(format!("lane {}", number(of, "lane")?)));
-    std::iter::once(road).chain(paths).chain(edges).chain(lanes).collect()
+    with_notes(std::iter::once(road).chain(paths).chain(edges).chain(lanes).collect(), whole)
 }
 
 /// An area of all numbers of an object.

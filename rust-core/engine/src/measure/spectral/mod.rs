@@ -51,5 +51,5 @@ fn surfaces_without_spectra(scene: &Scene) -> impl Iterator<Item = &Material> {
 }
 
 fn shines(light: &Light) -> bool {
-    !light.portal && light.dimming != 0.0
+    !light.portal && light.share() != 0.0
 }
