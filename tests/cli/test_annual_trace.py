@@ -141,7 +141,32 @@ def test_solid_glass_is_told(run, tmp_path, weather):
     stage = STAGE.format(up="Z") + MATTE + level("Floor", 0, 0.5) + PANE % 0 + level("Roof", 0.5, 5, "Pane")
     (tmp_path / "stage.usda").write_text(stage)
     done = run("annual", tmp_path / "stage.usda", "--weather", weather[0], "--grid", "/Floor", "--height", 0.1, "-p", 16)
-    assert done.returncode == 0 and "clear solid glass is spread over patches" in done.stderr
+    words = "clear solid glass is spread over patches"
+    assert done.returncode == 0 and words in done.stderr
+    # Machines, Python and eyes are told too.
+    quiet = run("annual", tmp_path / "stage.usda", "--weather", weather[0], "--grid", "/Floor", "--height", 0.1, "-p", 16, "-q", "--json")
+    assert any(words in found["message"] for found in json.loads(quiet.stdout)["diagnostics"])
+    import gonio
+
+    scene = gonio.load_usd(tmp_path / "stage.usda")
+    scene.add_meter((0.0, 0.0, 0.1))
+    (reading,) = gonio.annual(scene, weather[0].read_bytes(), samples=16)
+    (eye,) = gonio.annual_glare(scene, weather[0].read_bytes(), [((0, 0, 0.1), (0, 1, 0))], samples=16)
+    for told in (reading.diagnostics, eye.diagnostics):
+        assert any(words in message for _, message in told)
+
+
+def test_python_takes_whole_steps_and_no_preview(tmp_path, weather):
+    import gonio
+
+    (tmp_path / "stage.usda").write_text(STAGE.format(up="Z") + MATTE + level("Floor", 0, 0.5))
+    scene, bytes_of = gonio.load_usd(tmp_path / "stage.usda"), weather[0].read_bytes()
+    scene.add_meter((0.0, 0.0, 0.1), normal=(0.0, 0.0, -1.0))
+    with pytest.raises(gonio.SettingError, match="0.05 was found at step 4, expected 0 or 1"):
+        gonio.annual(scene, bytes_of, schedule=[1.0, 0.0, 1.0, 0.05] + [1.0] * 8756)
+    scene.set(integrator="direct")
+    # What faces the floor alone has light by bounces.
+    assert gonio.annual(scene, bytes_of, samples=64)[0].figures["mean_lx"] > 100
 
 
 HOUSE = """def Xform "House" (

@@ -198,3 +198,26 @@ def test_python_finds_the_same_levels(run, stage):
     for more, words in (({"near": "alike"}, "expected 'equal'"), ({"fixed": {"g9": 1}}, "no light group 'g9'"), ({"min_level": 2}, "expected 0 to 1")):
         with pytest.raises(gonio.SettingError, match=words):
             gonio.dim(scene, targets, samples=64, **more)
+
+
+def test_power_is_the_files_as_far_as_a_lamp_is_dimmed(run, tmp_path):
+    """A file's watts times the dimmer's factor; flux of new lamps at 100 lm/W; a picture over a lamp counts by its mean. Python alike."""
+    from pictures import write_png
+
+    (tmp_path / "lamp.ies").write_text("IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 40\n0 90\n0\n100 100\n")
+    write_png(tmp_path / "half.png", np.tile(np.array([[[255] * 3, [0] * 3]], "u1"), (4, 4, 1)))
+    filed = '''asset gonio:photometry:file = @lamp.ies@
+    float gonio:photometry:dimming = 0.5
+    float gonio:photometry:maintenanceFactor = 0.8'''
+    maintained = "float gonio:photometry:maintenanceFactor = 0.8"
+    lamps = lamp("A", 0, 0, 2000, "filed", filed).replace("    double gonio:photometry:quantity = 2000\n", "") + lamp("B", 1, 0, 2000, "bare", maintained)
+    panel = lamp("C", 2, 0, 2000, "panel").replace("SphereLight", "RectLight").replace("float inputs:radius = 0.05", "asset inputs:texture:file = @half.png@")
+    path = tmp_path / "lamps.usda"
+    path.write_text(HEAD + lamps + panel)
+    watts = {"filed": 20.0, "bare": pytest.approx(20.0), "panel": pytest.approx(10.0, rel=1e-3)}
+    found = dimmed(run, path, *QUICK, "--target", "Floor.mean>=1")
+    assert {group["name"]: group["watts_full"] for group in found["groups"]} == watts
+    assert {group["name"]: group["watts_from"] for group in found["groups"]} == {"filed": "files", "bare": "flux", "panel": "flux"}
+    assert found["diagnostics"] == []
+    by_python = gonio.dim(gonio.load_usd(path), ["Floor.mean>=1"], samples=64)
+    assert {group["name"]: group["watts_full"] for group in by_python["groups"]} == watts

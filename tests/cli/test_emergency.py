@@ -261,3 +261,23 @@ def test_stairs_are_looked_at_from_all_angles(tmp_path, run):
     assert figures(run, written(tmp_path, lamp("A", 0), plan=ROUTE))["glare_deg"] == [60, 90]
     assert figures(run, written(tmp_path, lamp("A", 0), plan=stairs))["glare_deg"] == [0, 180]
     assert figures(run, written(tmp_path, lamp("A", 0), plan="glare_deg = [60, 90]\n" + stairs))["glare_deg"] == [60, 90]
+
+
+def test_lamps_hang_over_the_floor_below_them(tmp_path, run):
+    """Two floors one above the other, and a lamp beside which no floor lies lower."""
+    upper = lamp("Upper", 4).replace("2.5)", "5.8)")
+    under = lamp("Under", 4).replace("2.5)", "-1.0)")
+    plan = ROUTE + '[[route]]\nname = "Above"\nline = [[0, 0, 3.2], [8, 0, 3.2]]\nwidth = 2\nspacing = 1\n'
+    lit = {lit["name"]: lit["height_m"] for lit in figures(run, written(tmp_path, lamp("Low", 0) + upper + under, plan=plan))["luminaires"]}
+    assert lit == {"/Low": pytest.approx(2.5), "/Upper": pytest.approx(2.6), "/Under": None}
+    text = run(*written(tmp_path, lamp("Low", 0) + under, plan=ROUTE)).stdout
+    assert "no route or area of the plan lies below it" in text
+
+
+def test_the_plans_maintenance_stands_in_for_the_lights_own(tmp_path, run):
+    own = lamp("A", 0).replace('token gonio:photometry:unit', 'float gonio:photometry:maintenanceFactor = 0.7\n    token gonio:photometry:unit')
+    for plan, factor in ((ROUTE, 0.7), ("maintenance_factor = 0.8\n" + ROUTE, 0.8)):
+        found = figures(run, written(tmp_path, own, plan=plan))
+        assert found["routes"][0]["centre"]["max_lx"] == pytest.approx(factor * straight(0, lamps=((0.0, LUMENS),)), rel=2e-3)
+        # Nobody may be dazzled by new lamps either.
+        assert found["luminaires"][0]["peak_cd"] == pytest.approx(LUMENS / (4 * math.pi), rel=1e-3)

@@ -358,3 +358,18 @@ def test_tables_that_are_none(run, folder, text, expected):
     (folder / "road.toml").write_text(toml({"carriageway_width": 7.0, "lanes": 2, "surface": "bad.txt"}, [ROW], []))
     done = run("road", folder / "road.toml")
     assert done.returncode == 1 and "bad.txt" in done.stderr and expected in done.stderr
+
+
+TILTING = "IESNA:LM-63-2002\nTILT=INCLUDE\n1\n3\n0 15 90\n1 0.9 0.5\n1 -1 1 3 1 1 2 0 0 0\n1 1 100\n0 60 90\n0\n4000 4000 10\n"
+
+
+def test_tilts_that_are_tried_have_their_lamps_factor(run, folder):
+    """The road that is found is the one that is written out, with the lamp's factor at its tilt."""
+    (folder / "tilting.ies").write_text(TILTING)
+    row = ROW | {"luminaire": "tilting.ies", "tilt": 0}
+    wanted = "[required]\nl_av = 0.2\n[optimise]\nspacing = [20, 60]\ntilt = [15, 15]\n"
+    (folder / "road.toml").write_text(toml(ROAD, [row], []) + wanted)
+    found = json.loads(run("road", folder / "road.toml", "--json").stdout)
+    (folder / "road.toml").write_text(toml(ROAD, [row | {"tilt": 15, "spacing": found["optimised"]["spacing"]}], []))
+    alone = json.loads(run("road", folder / "road.toml", "--json").stdout)
+    assert found["l_av"] == pytest.approx(alone["l_av"], rel=1e-6) and found["l_av"] >= 0.2

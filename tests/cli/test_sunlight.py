@@ -52,9 +52,19 @@ def test_an_open_place_has_the_whole_day(run, stage):
     of_day = found(run, stage(), "--sun", VIENNA, "--at", "0,0,1")
     meter = of_day["meters"][0]
     assert meter["hours"] == pytest.approx(12.15, abs=0.1) and meter["hours"] == pytest.approx(of_day["possible_h"], abs=0.04)
-    assert meter["en17037_level"] == "high" and len(meter["spans_h"]) == 1
+    # A level wants the sun's least height, which the place has.
+    assert meter["en17037_level"] is None and len(meter["spans_h"]) == 1
+    high = found(run, stage(), "--sun", VIENNA, "--at", "0,0,1", "--least-elevation", 13)["meters"][0]
+    assert high["en17037_level"] == "high" and high["hours"] == pytest.approx(9.4, abs=0.1)
     # The middle of the day is when the sun passes the meridian: 12 h + (15° - 16.37°) / 15° h and 7.5 min of the equation of time.
     assert sum(meter["spans_h"][0]) / 2 == pytest.approx(12 + (15 - 16.37) / 15 + 7.4 / 60, abs=0.03)
+
+
+@pytest.mark.parametrize("step", [25, 59])
+def test_steps_that_do_not_divide_the_day(run, stage, step):
+    of_day = found(run, stage(), "--sun", VIENNA, "--at", "0,0,1", "--step", step)
+    count = round(24 * 60 / step)
+    assert of_day["meters"][0]["hours"] == pytest.approx(len(of_day["sun"]) * 24 / count)
 
 
 def test_a_window_sees_its_side_alone(run, stage):
@@ -124,7 +134,7 @@ def Material "Glass" {
     south = ("--sun", VIENNA, "--at", "0,0,1", "--normal=0,-1,0")
     open_air = found(run, stage(), *south)["meters"][0]["hours"]
     assert found(run, stage(pane.replace("THIN", "1")), *south)["meters"][0]["hours"] == pytest.approx(open_air, abs=0.05)
-    solid = run("sunlight", stage(pane.replace("THIN", "0")), *south)
+    solid = run("sunlight", stage(pane.replace("THIN", "0")), *south, "--least-elevation", 13)
     assert "thin panes" in solid.stderr and "below the minimum" in solid.stdout
 
 

@@ -164,3 +164,16 @@ NOTHING = [("", "an empty file"), ("{", "0.json:1: no JSON"), ("[]", "no object 
 def test_files_of_nothing_measured(run, files, text, told):
     done = run("verdict", *files(MEAN.format(limit=500), text))
     assert done.returncode == 1 and told in done.stderr and "gonio measure" in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("key", "told"),
+    [
+        ("diagnostics", [{"severity": "warning", "origin": "/Lamp", "message": "is left out"}, {"severity": "info", "origin": "/A", "message": "so"}]),
+        ("doubts", ["/Lamp: is left out"]),
+        ("notes", ["/Lamp: is left out"]),
+    ],
+)
+def test_what_measuring_told_is_on_the_sheet(run, files, key, told):
+    found = judged(run, files(MEAN.format(limit=500), {**DESK, key: told}), 0)
+    assert "/Lamp: is left out" in found["requirements"][0]["notes"] and "/A: so" not in found["requirements"][0]["notes"]
