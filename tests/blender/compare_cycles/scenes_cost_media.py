@@ -15,10 +15,11 @@ def cloud() -> None:
     """A dense cloud of 512³ voxels in the sun, a clear even sky about it."""
     resolution(192, 160)
     bpy.context.scene.cycles.volume_bounces = 24
-    even_world(0.3)
+    even_world(0.1)
     lamp("SUN", 5.0, (0.0, 0.0, 10.0), (0.6, 0.3, 0.0), angle=0.01)
-    volume("Cloud", stored(f"cloud{EDGE}", lambda: {"density": heap(EDGE)}), 2.0 / EDGE, density=60.0, Anisotropy=0.5)
-    camera((0.0, -5.0, 0.6), (0.0, 0.0, 0.1), lens=50.0)
+    grids = stored(f"cloud{EDGE}", lambda: {"density": heap(EDGE)})
+    volume("Cloud", grids, 2.0 / EDGE, density=60.0, Color=(0.98, 0.98, 0.98, 1.0), Anisotropy=0.5)
+    camera((0.0, -3.2, 0.4), (0.0, 0.0, 0.0), lens=70.0)
 
 
 def fire() -> None:
@@ -29,7 +30,7 @@ def fire() -> None:
     plane(diffuse((0.3, 0.3, 0.3)), size=8.0, location=(0.0, 0.0, -1.0))
     lamp("AREA", 40.0, (2.0, -1.0, 2.0), (0.6, 0.6, 0.3), size=0.5)
     grids = stored("fire128", plume)
-    volume("Fire", grids, 2.0 / 128, density=8.0, Blackbody_Intensity=0.002, Temperature=1800.0)
+    volume("Fire", grids, 2.0 / 128, density=8.0, Blackbody_Intensity=1.0, Temperature=2500.0)
     camera((0.0, -4.5, 0.3), (0.0, 0.0, 0.0), lens=50.0)
 
 
