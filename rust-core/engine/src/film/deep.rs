@@ -16,6 +16,8 @@ const STEP: f64 = 1.0 / (1_u64 << 26) as f64;
 pub const BEHIND_ALL: f32 = 1e10;
 /// What is left open of a pixel counts as nothing below this.
 const CLOSED: f64 = 1e-6;
+/// Depths of places in the air are one within a sixteenth of an octave.
+const SOFT_BITS: u32 = MANTISSA - 4;
 /// Bits of a float behind the exponent.
 const MANTISSA: u32 = 23;
 
@@ -61,12 +63,13 @@ fn dropped_bits(tolerance: f32) -> u32 {
 /// What a block's samples met; `packed` are the zones for which its batches were packed.
 pub(super) fn of_block(gathered: &DeepSums, tolerance: f32, packed: u64) -> Deep {
     let (codes, dropped) = (codes(packed), dropped_bits(tolerance));
+    let of_air = SOFT_BITS.max(dropped);
     let slabs = gathered.parts.iter().filter_map(|part| {
         let depth = part.depth.clamp(0.0, BEHIND_ALL);
         Some(Slab {
             code: *codes.get(part.slot as usize)?,
-            // The bits of positive floats rise as they do, in steps that are equal within an octave.
-            bin: depth.to_bits() >> dropped,
+            // The bits of positive floats rise as they do, in steps that are equal within an octave. Surfaces and air are apart.
+            bin: if part.soft { depth.to_bits() >> of_air << (of_air - dropped + 1) | 1 } else { depth.to_bits() >> dropped << 1 },
             nearest: depth,
             farthest: depth,
             weight: (f64::from(part.coverage) * WHOLE).round().max(0.0) as u64,
@@ -140,6 +143,8 @@ fn parts(slabs: &[Slab], tolerance: f32, scale: f64, exposure: f64) -> Vec<Part>
             _ => parts.push(Part { depth: [slab.nearest, slab.farthest], light, coverage }),
         }
     }
+    // Air begins somewhere within its steps.
+    parts.sort_by(|a, b| a.depth[0].total_cmp(&b.depth[0]));
     parts
 }
 
@@ -220,7 +225,7 @@ mod tests {
     const TOLERANCE: f32 = 1e-3;
 
     fn part(slot: u32, depth: f32, coverage: f32, light: f32) -> DeepPart {
-        DeepPart { slot, depth, coverage, light: [light, 0.5 * light, 0.0] }
+        DeepPart { slot, depth, coverage, light: [light, 0.5 * light, 0.0], soft: false }
     }
 
     fn sums(parts: &[DeepPart]) -> DeepSums {

@@ -9,7 +9,7 @@ use crate::tables::photons::Photons;
 use crate::tables::shader_passes::ShaderPasses;
 use crate::words::{counts, event, flag};
 use gonio_light::{FixedLightSample, LightCache};
-use gonio_simd::{Execution, F, Lanes, M, Spectrum, U};
+use gonio_simd::{Execution, F, Lanes, M, Spectrum, U, Vec3};
 use std::sync::Arc;
 
 /// Settings of a view that stages read, as pbrt's integrators hold them.
@@ -214,6 +214,19 @@ pub struct Passes {
     pub expressions: Option<Arc<PathExpressions>>,
     /// Which groups of lights are summed apart.
     pub groups: GroupPasses,
+}
+
+impl Transport {
+    /// Metres of places from the camera, as deep pictures have them.
+    #[inline(always)]
+    pub(crate) fn deep_depth<L: Lanes>(&self, distance: Distance, place: Vec3<L>) -> F<L> {
+        let l = place.x.lanes();
+        let from_eye = place - Vec3::splat(l, self.eye);
+        match distance {
+            Distance::AlongAxis => from_eye.dot(Vec3::splat(l, self.forward)),
+            Distance::FromEye => from_eye.length(),
+        }
+    }
 }
 
 /// What depths of deep pictures are, metres.

@@ -16,11 +16,11 @@ fn settled(sums: &mut DeepSums, radiance: f32, coverage: f32) -> Vec<DeepPart> {
 }
 
 fn part(depth: f32, coverage: f32, red: f32) -> DeepPart {
-    DeepPart { slot: 3, depth, coverage, light: [red, 0.0, 0.0] }
+    DeepPart { slot: 3, depth, coverage, light: [red, 0.0, 0.0], soft: false }
 }
 
 fn meet(sums: &mut DeepSums, depth: f32, share: f32) {
-    sums.add::<One>(U(3), F(depth), F(share), M(true));
+    sums.add::<One>(U(3), F(depth), F(share), M(true), false);
 }
 
 #[test]
@@ -48,4 +48,14 @@ fn shares_of_a_sample_stand_one_behind_the_other() {
     // Clear glass before nothing takes its coverage back.
     meet(&mut sums, 1.0, 1.0);
     assert_eq!(settled(&mut sums, 10.0, 1.25), [part(1.0, 0.25, 2.0)]);
+}
+
+#[test]
+fn light_of_a_depth_of_its_own_covers_nothing() {
+    let mut sums = DeepSums::default();
+    sums.prepare(true);
+    meet(&mut sums, 4.0, 1.0);
+    let red = Rgb { r: F(2.0), g: F(0.0), b: F(0.0) };
+    sums.add_light::<One>(U(3), F(1.5), red, M(true));
+    assert_eq!(settled(&mut sums, 5.0, 1.0), [DeepPart { soft: true, ..part(1.5, 0.0, 2.0) }, part(4.0, 1.0, 3.0)]);
 }

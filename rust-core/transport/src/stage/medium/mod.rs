@@ -19,6 +19,7 @@ use crate::state::queue::Queues;
 use crate::state::sample::SampleContext;
 use crate::tables::Tables;
 use crate::tables::transport::Transport;
+use crate::words::flag;
 use context::MediumContext;
 use flight::Flight;
 use gonio_simd::{Lanes, Spectrum, dispatch};
@@ -58,18 +59,23 @@ fn pass_paths<L: Lanes>(
             continue;
         }
         let going_on = way.going_on(&context.transport.limits);
-        light::sample_along(context, &way, going_on.and_not(tracked), &mut queues.shadows, deposits);
+        // Deep pictures want light from where it scatters; else the best place of the way is lit, whether its path scatters there or not.
+        let at_places = match context.transport.passes.deep {
+            Some(_) => tracked | (way.core.flags & flag::CAMERA).ne(0),
+            None => tracked,
+        };
+        light::sample_along(context, &way, going_on.and_not(at_places), &mut queues.shadows, deposits);
         let mut flight = flight::draw(context, &way);
         if let Some(track) = &track {
             flight = match media.shines() {
                 true => pass_shining(context, &mut way, track, &flight, deposits),
                 false => pass_varying(context, &mut way, track, &flight),
             };
-            light::sample_at(context, &way, &flight, going_on & tracked & flight.scatters, &mut queues.shadows, deposits);
         }
+        light::sample_at(context, &way, &flight, going_on & at_places & flight.scatters, &mut queues.shadows, deposits);
         let scattered = way.scatters & flight.scatters;
         let absorbed = (way.scatters & flight.is_absorbed()).and_not(scattered);
-        scatter::add_seen(context, &way, [scattered, absorbed], deposits);
+        scatter::add_seen(context, (&way, &flight), [scattered, absorbed], deposits);
         scatter::go_on(context, &way, &flight, scattered & going_on, &mut queues.next);
         flight::settle(&way, &flight, scattered | absorbed, paths, &mut nearest.hits);
     }
@@ -96,15 +102,21 @@ fn pass_shining<L: Lanes>(
     way.pdf.lanes().vectorize(
         #[inline(always)]
         || {
-            let (mut sent, along) = (Spectrum::zero(way.pdf.lanes()), *way);
+            let l = way.pdf.lanes();
+            let (mut sent, mut middle, along) = (Spectrum::zero(l), l.f(0.0), *way);
             let flight = flight::track(
                 context,
                 (way, track),
                 *even,
                 #[inline(always)]
-                |place, length, weight| sent += shine::sent(context, &along, track, place) * weight * length,
+                |place, length, weight| {
+                    let light = shine::sent(context, &along, track, place) * weight * length;
+                    sent += light;
+                    middle += light.mean() * (place - along.from);
+                },
             );
-            shine::deposit(context, way, sent * way.core.throughput, way.scatters & track.varies, deposits);
+            let middle = middle / sent.mean().max(f32::MIN_POSITIVE);
+            shine::deposit(context, (way, middle), sent * way.core.throughput, way.scatters & track.varies, deposits);
             flight
         },
     )

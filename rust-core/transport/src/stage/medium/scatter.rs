@@ -41,10 +41,20 @@ pub(super) fn flags<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>) -> U<L>
 
 /// What cameras see of places where light scatters, or tracking leaves nothing of it: coverage, and guides for denoisers.
 #[inline(always)]
-pub(super) fn add_seen<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>, [scattered, absorbed]: [M<L>; 2], deposits: &mut Deposits) {
+pub(super) fn add_seen<L: Lanes>(
+    context: &MediumContext<'_>,
+    (way, flight): (&Way<L>, &Flight<L>),
+    [scattered, absorbed]: [M<L>; 2],
+    deposits: &mut Deposits,
+) {
     let (core, transport) = (&way.core, context.transport);
     // The pdf of camera rays is their share of the sample. Of those that met nothing, found light has told by how much they cover.
-    add(&mut deposits.sums.alpha, core.slot, way.pdf, (scattered | absorbed) & way.met & (core.flags & flag::CAMERA).ne(0));
+    let seen = (scattered | absorbed) & (core.flags & flag::CAMERA).ne(0);
+    add(&mut deposits.sums.alpha, core.slot, way.pdf, seen & way.met);
+    if let Some(distance) = transport.passes.deep {
+        let depth = transport.deep_depth(distance, way.place(flight.distance.min(way.length)));
+        deposits.sums.deep.add(core.slot, depth, way.pdf, seen, true);
+    }
     if !transport.passes.guides || transport.path_filter == PathFilter::ExceptSpecular {
         return;
     }

@@ -7,7 +7,7 @@ use crate::accumulate::deposit::{Contribution, Deposits, Source, code_of_found};
 use crate::accumulate::expression_sums::with_state;
 use crate::accumulate::guides::is_specular_path;
 use crate::media::track::Track;
-use crate::words::code;
+use crate::words::{code, flag};
 use gonio_simd::{F, Lanes, M, Spectrum};
 
 /// Optical depths below this are as good as none.
@@ -23,7 +23,7 @@ pub(super) fn add<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>, chosen: M
     }
     let lit = chosen & emission.is_lit();
     if lit.any() {
-        deposit(context, way, emission * seen_length(way) * way.core.throughput, lit, deposits);
+        deposit(context, (way, middle(way)), emission * seen_length(way) * way.core.throughput, lit, deposits);
     }
 }
 
@@ -39,9 +39,15 @@ pub(super) fn sent<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>, track: &
     emission * left_where_flights_pass(way, (place - way.from).max(0.0))
 }
 
-/// Adds light that comes along ways.
+/// Adds light that comes along ways, in the mean from so many metres of them.
 #[inline(always)]
-pub(super) fn deposit<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>, light: Spectrum<L>, chosen: M<L>, deposits: &mut Deposits) {
+pub(super) fn deposit<L: Lanes>(
+    context: &MediumContext<'_>,
+    (way, middle): (&Way<L>, F<L>),
+    light: Spectrum<L>,
+    chosen: M<L>,
+    deposits: &mut Deposits,
+) {
     let transport = context.transport;
     let value = transport.limits.clamped(light, way.bounces());
     let flags = way.core.flags;
@@ -53,7 +59,22 @@ pub(super) fn deposit<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>, light
         specular: is_specular_path(flags, way.core.slot),
         source: Source::Several,
     };
-    deposits.deposit(transport, &light, chosen & value.is_lit());
+    let lit = chosen & value.is_lit();
+    deposits.deposit(transport, &light, lit);
+    if let Some(distance) = transport.passes.deep {
+        let depth = transport.deep_depth(distance, way.place(middle.clamp(0.0, way.length)));
+        let film = deposits.to_film(way.core.slot, value);
+        deposits.sums.deep.add_light(way.core.slot, depth, film, lit & (flags & flag::CAMERA).ne(0));
+    }
+}
+
+/// Metres of each way from which what an even medium sends along it comes in the mean: 1/σ − d T / (1 − T).
+#[inline(always)]
+fn middle<L: Lanes>(way: &Way<L>) -> F<L> {
+    let (length, extinction) = (way.length, way.extinction.mean());
+    let left = (-(extinction * length)).exp();
+    let thick = extinction.max(f32::MIN_POSITIVE).recip() - length * left / (1.0 - left).max(f32::MIN_POSITIVE);
+    (extinction * length).lt(THIN).select(length * 0.5, thick)
 }
 
 /// Metres of each way that are seen from its beginning: (1 − T) / σ.

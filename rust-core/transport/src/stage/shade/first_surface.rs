@@ -9,7 +9,7 @@ use crate::state::chunk::ChunkContext;
 use crate::state::vertex::Vertex;
 use crate::tables::material::SurfaceMaterial;
 use crate::tables::motion_vectors::Moved;
-use crate::tables::transport::{Distance, Mist};
+use crate::tables::transport::Mist;
 use crate::words::flag;
 use gonio_bsdf::Lobes;
 use gonio_camera::sampler::pixel;
@@ -83,12 +83,8 @@ pub(crate) fn add_first_surface<L: Lanes>(
         deposits.sums.mattes.add(of, material.matte_id, (surface.slot, point.instance), point.share, seen);
     }
     if let Some(distance) = transport.passes.deep {
-        let from_eye = point.at.position - eye;
-        let depth = match distance {
-            Distance::AlongAxis => from_eye.dot(Vec3::splat(l, transport.forward)),
-            Distance::FromEye => from_eye.length(),
-        };
-        deposits.sums.deep.add(surface.slot, depth, point.share, seen);
+        let depth = transport.deep_depth(distance, point.at.position);
+        deposits.sums.deep.add(surface.slot, depth, point.share, seen, false);
     }
     if let Some(program) = chunk.shader {
         add_shader_passes(program, &chunk.columns.shader_outputs, point, seen, at, &mut deposits.sums);
