@@ -71,7 +71,9 @@ def test_what_is_behind_stays_behind(tmp_path, kind):
     scene.add_instance(scene.add_mesh(WALL, QUAD), [black])
     pixels = pictures(scene, tmp_path)
     before, whole = (flatten(pixels, depth).mean((0, 1)) for depth in (4.5, np.inf))
-    assert before[:3] == pytest.approx(2.0 / DENSITY * covered(FAR), rel=0.01) and before[:3] == pytest.approx(whole[:3], rel=1e-4)
+    # Tracking meets the light of a grid by chance.
+    assert before[:3] == pytest.approx(2.0 / DENSITY * covered(FAR), rel=0.001 if kind == "even" else 0.04)
+    assert before[:3] == pytest.approx(whole[:3], rel=1e-4)
     assert whole[3] == pytest.approx(1.0, abs=1e-5)
     if kind == "even":
         assert before[3] == 0.0

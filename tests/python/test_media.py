@@ -159,3 +159,17 @@ def test_fog_that_stands_on_a_floor_is_before_it(box_first, touching):
     found, _ = seen(scene, 4, max_bounces=0)
     way = 1.0 + math.hypot(0.3, 2.0)
     assert found == pytest.approx([0.5 / math.pi * math.exp(-0.7 * way)] * 3, rel=2e-3)
+
+
+@pytest.mark.parametrize("coefficients", [{"absorption": 0.3}, {"scattering": 1e-6, "absorption": 0.3}])
+def test_fog_before_the_near_limit_is_not_seen(coefficients):
+    """As in Cycles, where rays start at it: what is left of a lamp's luminance 4 m away with a limit of 1 m."""
+    scene = looking((0.0, 0.0, 0.0), (0.0, 0.0, -1.0))
+    from gonio.description import camera
+
+    described = camera("near", gonio.look_at((0, 0, 0), (0, 0, -1), (0, 1, 0)), 0.02, (8, 8))
+    scene.set(camera=scene.put_camera({**described, "clipping": [1.0, 1e9]}, fixed_aperture=False))
+    scene.add_light("disk", (1.0,) * 3, radius=1.0, transform=gonio.look_at((0, 0, -4), (0, 0, 0), (0, 1, 0)))
+    scene.put_atmosphere(medium(**coefficients))
+    found, _ = seen(scene, 256)
+    assert found == pytest.approx(math.exp(-0.3 * 3.0), rel=2e-3)

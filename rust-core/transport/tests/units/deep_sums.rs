@@ -1,7 +1,7 @@
 //! Parts of samples along depth.
 
 use gonio_camera::sampler::BATCH;
-use gonio_simd::{Column, F, M, One, U};
+use gonio_simd::{Column, F, M, One, Rgb, U};
 use gonio_transport::{DeepPart, DeepSums};
 
 /// Sums of a batch whose slot 3 has this radiance and coverage.

@@ -1,5 +1,7 @@
 //! Ray generation: a camera ray with its ray cone, the start of a path, for every slot of a batch.
 
+use crate::geometry::NONE;
+use crate::state::passed::PassedLanes;
 use crate::state::path_core::PathCore;
 use crate::state::paths::{PathLanes, Paths};
 use crate::state::rays::RayLanes;
@@ -79,9 +81,13 @@ pub(crate) fn generate_at<L: Lanes>(l: L, camera: &CameraTable, places: [&[f32];
     paths.set_masks();
 }
 
-/// The path of a camera ray.
+/// The path of a camera ray. Of fog about the camera, too, what is nearer than its near limit is not seen.
 #[inline(always)]
 fn started<L: Lanes>(ray: &CameraRay<L>, core: PathCore<L>) -> PathLanes<L> {
     let core = PathCore { width: ray.width, spread: ray.spread, ..core };
+    let l = ray.t_min.lanes();
+    let near = || PassedLanes { t: ray.t_min, instance: l.u(NONE), primitive: l.u(NONE), barycentric: [l.f(0.0); 2] };
+    let passed = core.media.is_filled().any().then(near);
     PathLanes::start(RayLanes { origin: ray.origin, direction: ray.direction, t_min: ray.t_min, t_max: ray.t_max }, core)
+        .having_passed(passed)
 }
