@@ -54,6 +54,7 @@ def test_what_cannot_be_used_is_told_in_one_line(run, room, tmp_path):
     other = tmp_path / "room.usda"
     other.write_text(stage.replace("double radius = 0.6", "double radius = 0.7"))
     assert "another scene" in error_of(run(*line(other, *kept, "--resume", spp=16)))
+    assert "another scene" in error_of(run(*line(room, *kept, "--resume", "--haze", 20, spp=16)))
     (tmp_path / "c").write_bytes((tmp_path / "c").read_bytes()[:-9])
     assert "ends before its time" in error_of(run(*line(room, *kept, "--resume", spp=16)))
 
@@ -112,6 +113,14 @@ def kill_often(run, command, room, tmp_path, renders, kills):
 
 def test_kills_do_not_change_a_bit(run, command, room, tmp_path):
     kill_often(run, command, room, tmp_path, 1, 3)
+
+
+def test_kills_do_not_change_a_bit_of_fog(run, command, room, tmp_path):
+    for name, options in (("whole", ("--haze", 20)), ("clear", ())):
+        assert run(*line(room, "-o", tmp_path / f"{name}.exr", *options, size=96, spp=256)).returncode == 0
+    whole = pictures.read(tmp_path / "whole.exr")
+    assert not pictures.same(whole, pictures.read(tmp_path / "clear.exr"))
+    assert pictures.same(whole, render_with_kills(command, room, tmp_path / "killed.exr", 3, random.Random(3), "--haze", 20, size=96, spp=256))
 
 
 def test_kills_do_not_change_a_bit_of_caustics(run, command, tmp_path):

@@ -47,7 +47,7 @@ def test_a_cluster_without_the_extra_is_one_line(run, room, tmp_path):
     assert not (tmp_path / "a.exr").exists()
 
 
-@pytest.mark.parametrize("options, count", [((), 4), ((), 9), (("--noise-threshold", 0.1, "--min-spp", 4), 3)])
+@pytest.mark.parametrize("options, count", [((), 4), ((), 9), (("--noise-threshold", 0.1, "--min-spp", 4), 3), (("--haze", 20), 3)])
 def test_parts_merge_to_the_whole(run, room, tmp_path, options, count):
     assert run(*line(room, "-o", tmp_path / "whole.exr", *options, spp=48)).returncode == 0
     for number in range(1, count + 1):

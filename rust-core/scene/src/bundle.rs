@@ -87,11 +87,13 @@ pub fn of_bundle(bytes: &[u8], path: &Path) -> Result<Scene> {
 /// Where elements come from is left out: USD numbers the prototypes of instances otherwise each time that a stage is opened.
 pub fn digest_scene(scene: &Scene) -> Digest {
     let parts = (&scene.meshes, &scene.instances, &scene.materials, &scene.textures, &scene.measured, &scene.lights, &scene.cameras);
-    // Scenes without curves and points keep the digests that their checkpoints have.
+    // Scenes without curves, points and fog keep the digests that their checkpoints have.
     let shapes = (!scene.curves.is_empty() || !scene.points.is_empty()).then_some((&scene.curves, &scene.points));
-    let (json, mut digest) = blob::digest(|| match shapes {
-        None => serde_json::to_value(parts),
-        Some(shapes) => serde_json::to_value((parts, shapes)),
+    let fog = (!scene.fields.is_empty() || !scene.atmosphere.is_clear()).then_some((&scene.fields, &scene.atmosphere));
+    let (json, mut digest) = blob::digest(|| match (shapes, fog) {
+        (None, None) => serde_json::to_value(parts),
+        (Some(shapes), None) => serde_json::to_value((parts, shapes)),
+        (shapes, Some(fog)) => serde_json::to_value((parts, shapes, fog)),
     });
     // Descriptions that cannot be written differ from all others in their arrays.
     let mut json = json.unwrap_or_default();

@@ -19,7 +19,7 @@ pub struct Goniogram {
     #[serde(default)]
     pub lamp_flux: Option<f64>,
     /// Electrical power in W at these factors, where it is known.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub watts: Option<f64>,
     /// The luminaire's opening, in metres; a light has it if its shape is one.
     #[serde(default)]

@@ -141,6 +141,11 @@ fn whole() -> f32 {
     1.0
 }
 
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for it")]
+fn is_whole(share: &f32) -> bool {
+    *share == 1.0
+}
+
 fn lambertian_deg() -> f32 {
     180.0
 }
@@ -172,7 +177,7 @@ pub struct Light {
     #[serde(default = "whole")]
     pub dimming: f32,
     /// Factor on its strength alone: what ageing and soiling leave (CIE 97).
-    #[serde(default = "whole")]
+    #[serde(default = "whole", skip_serializing_if = "is_whole")]
     pub maintenance: f32,
     /// The spectrum of what it sends, whose colour takes the place of the emission's; none: the spectrum is made of the colour.
     #[serde(default, skip_serializing_if = "Option::is_none")]
