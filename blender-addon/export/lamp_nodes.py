@@ -9,7 +9,7 @@ import numpy as np
 from ..units import LUMENS_PER_WATT
 from .evaluate import Pictures, evaluate
 from .material.flatten import flatten
-from .material.inputs import POSITION, UV
+from .material.inputs import GENERATED, POSITION, UV
 from .material.sockets import active_output, input_socket
 from .material.translator import Translator
 
@@ -153,8 +153,8 @@ class Light:
         world = _vectors(normal[:, :3] @ self._turn.T)
         place = _vectors(point[:, :3] @ self._matrix[:3, :3].T + self._matrix[:3, 3])
         plain = {"Normal": world, "GeometricNormal": world, "Incoming": world, "Position": place, "FrontFacing": np.ones_like(world)}
-        # Generated coordinates are 0: lamps have no box of their own.
-        primvars = {UV: uv, POSITION: point}
+        # Lamps have no box of their own: generated coordinates are the object's.
+        primvars = {UV: uv, POSITION: point, GENERATED: point}
 
         def leaf(operation, inputs):
             if isinstance(operation, str):

@@ -235,3 +235,33 @@ def test_patterns_fall_where_cycles_throws_them(tmp_path, kind):
     apart = np.abs(cycles - gonio).max(axis=-1) / cycles.max()
     assert np.quantile(apart, 0.8) < 0.02 and apart.mean() < 0.015, (np.quantile(apart, 0.8), apart.mean())
     assert np.allclose(gonio.mean(axis=(0, 1)), cycles.mean(axis=(0, 1)), rtol=0.02), (gonio.mean(axis=(0, 1)), cycles.mean(axis=(0, 1)))
+
+
+@pytest.mark.blender
+def test_textures_that_nothing_places_lie_in_the_lamps_own_space(tmp_path):
+    """A wave over a lamp of 4 m, which shines straight down."""
+    import bpy
+    import numpy as np
+    from beside_cycles import both, scene
+    from recorder import link, material
+
+    made = scene(32, 32, scale=5.0, samples=128)
+    bpy.ops.mesh.primitive_plane_add(size=20.0)
+    white, tree, end = material()
+    tree.links.new(tree.nodes.new("ShaderNodeBsdfDiffuse").outputs[0], end.inputs["Surface"])
+    bpy.context.object.data.materials.append(white)
+    lamp = bpy.data.lights.new("Lamp", "AREA")
+    lamp.energy, lamp.size, lamp.spread = 100.0, 4.0, 0.035
+    thing = link(bpy.data.objects.new("Lamp", lamp))
+    thing.location, thing.visible_camera = (0.3, 0.0, 3.0), False
+
+    def wave(tree, light):
+        made = tree.nodes.new("ShaderNodeTexWave")
+        made.inputs["Scale"].default_value = 0.15
+        tree.links.new(made.outputs["Color"], light.inputs["Color"])
+
+    lit(lamp, wave)
+    made.cycles.max_bounces = 0
+    cycles, gonio = both(tmp_path)
+    assert cycles.std() > 0.3 * cycles.mean() > 0.0
+    assert np.abs(cycles - gonio).mean() < 0.03 * cycles.mean() and np.allclose(gonio.mean(), cycles.mean(), rtol=0.02), (cycles.mean(), gonio.mean())
