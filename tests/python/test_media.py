@@ -173,3 +173,27 @@ def test_fog_before_the_near_limit_is_not_seen(coefficients):
     scene.put_atmosphere(medium(**coefficients))
     found, _ = seen(scene, 256)
     assert found == pytest.approx(math.exp(-0.3 * 3.0), rel=2e-3)
+
+
+@pytest.mark.parametrize("lamp", ["mesh", "rectangle"])
+@pytest.mark.parametrize("floor", [False, True])
+def test_lamps_are_found_beside_a_sky_that_does_not_arrive(lamp, floor):
+    """The glow about a lamp in endless haze, on rays that meet nothing and on those that meet a dark floor far away, is the same with a sky as without."""
+    found = []
+    for sky in (False, True):
+        scene = looking((0.0, 0.0, 0.0), (0.0, 0.0, -1.0), size=16, degrees=10.0)
+        if lamp == "mesh":
+            corners = np.array([[1, -1, -10], [3, -1, -10], [3, 1, -10], [1, 1, -10]], "f4")
+            shining = scene.add_material("shining", emission_color=(100.0,) * 3)
+            scene.add_instance(scene.add_mesh(corners, np.array([[0, 1, 2], [0, 2, 3]], "i4")), [shining])
+        else:
+            scene.add_light("rectangle", (100.0,) * 3, width=2, height=2, transform=gonio.look_at((2, 0, -10), (2, 0, 0), (0, 1, 0)))
+        if floor:
+            dark = scene.add_material("dark", base_color=(0.0,) * 3, specular_weight=0.0)
+            wall = np.array([[-900, -900, -500], [900, -900, -500], [900, 900, -500], [-900, 900, -500]], "f4")
+            scene.add_instance(scene.add_mesh(wall, np.array([[0, 1, 2], [0, 2, 3]], "i4")), [dark])
+        if sky:
+            scene.add_light("dome", (1.0,) * 3)
+        scene.put_atmosphere(medium(scattering=0.01))
+        found.append(seen(scene, 64, max_bounces=1)[0][0])
+    assert found[1] == pytest.approx(found[0], rel=0.03) and found[0] > 0.1

@@ -96,9 +96,9 @@ impl<L: Lanes> LightBounds<L> {
     pub(super) fn importance_along(&self, l: L, way: &LightWay<L>) -> F<L> {
         let (_, [from, to]) = self.reached(l, way);
         let far = self.is(flag::INFINITE);
-        let part = LightWay { origin: way.place(from), direction: way.direction, length: (to - from).max(0.0) };
+        let part = LightWay { origin: way.place(from), length: (to - from).max(0.0), ..*way };
         let near = self.gain * part.seen_from(self.centre, self.radius).nearness();
-        (self.strength * far.select(part.length, near)).min(1e30).keep_if(to.gt(from))
+        (self.strength * far.select(part.length.min(way.open), near)).min(1e30).keep_if(to.gt(from))
     }
 
     /// The light's middle, and the metres of a way between which its light may arrive.

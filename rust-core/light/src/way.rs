@@ -11,6 +11,8 @@ pub struct LightWay<L: Lanes> {
     pub direction: Vec3<L>,
     /// Metres.
     pub length: F<L>,
+    /// Metres of it that may show light from infinity; in what has no end none arrives.
+    pub open: F<L>,
 }
 
 impl<L: Lanes> LightWay<L> {

@@ -72,6 +72,10 @@ impl Medium {
     pub fn extinction_of(visibility: f64, contrast: f64) -> f64 {
         -contrast.ln() / visibility
     }
+    /// Whether nothing is left of light that comes from infinitely far.
+    pub fn ends_light(&self) -> bool {
+        self.absorption.iter().zip(&self.scattering).all(|(absorption, scattering)| absorption + scattering > 0.0)
+    }
     /// Whether light goes through as if nothing were there.
     pub fn is_clear(&self) -> bool {
         [self.absorption, self.scattering, self.emission].iter().flatten().all(|x| *x == 0.0)

@@ -148,6 +148,10 @@ pub(super) fn compile(
         }
         light_of.resize(records.len(), number as u32);
     }
+    if scene.atmosphere.ends_light() {
+        // Who sampled them would find nothing.
+        records.iter_mut().filter(|record| record.kind.is_infinite()).for_each(|record| record.visible_to_scattered = false);
+    }
     instance_light.push(0);
     let first_triangle = records.len() as u32;
     let triangle_lights = emissive_triangles(scene, probe, origin, &mut records, diagnostics)?;

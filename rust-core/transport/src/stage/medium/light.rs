@@ -86,7 +86,7 @@ fn place<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>) -> Place<L> {
     let (l, tables) = (way.pdf.lanes(), context.tables);
     let slot = way.core.slot;
     let [u_light, u_channel] = context.pair(l, slot, dimension::MEDIUM_LIGHT_CHOICE);
-    let whole = LightWay { origin: way.place(l.f(0.0)), direction: way.direction, length: way.length };
+    let whole = LightWay { origin: way.place(l.f(0.0)), direction: way.direction, length: way.length, open: open(way) };
     let LightAlong { light, centre, reached: [from, to] } = kernels::sample_along(l, tables, &whole, u_light);
     let reached = to.gt(from);
     let part = LightWay { origin: whole.place(from), length: (to - from).max(0.0), ..whole };
@@ -104,6 +104,14 @@ fn place<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>) -> Place<L> {
     let drawn = by_distance.density(distance);
     let pdf = near.select(by_angle.density(distance).lerp(drawn, 1.0 - EQUIANGULAR), drawn);
     Place { distance: from + distance, pdf: pdf.keep_if(reached), light }
+}
+
+/// Metres of each way that may show light from infinity: as far as one sees, and none of ways without end through what dims all components.
+#[inline(always)]
+fn open<L: Lanes>(way: &Way<L>) -> F<L> {
+    let l = way.pdf.lanes();
+    let seen = way.extinction.mean().max(f32::MIN_POSITIVE).recip();
+    (way.met | way.extinction.min_component().le(0.0)).select(way.length.min(seen), l.f(0.0))
 }
 
 /// Samples a light for each chosen way through even media and queues the shadow ray to it.
