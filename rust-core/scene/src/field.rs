@@ -25,6 +25,14 @@ pub struct Lattice {
     /// Value of each.
     #[serde(with = "blob")]
     pub block_values: Arc<[f32]>,
+    /// How many of its values were no finite numbers, and count as 0.
+    #[serde(skip_serializing_if = "is_none")]
+    pub unknown: u64,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for it")]
+fn is_none(count: &u64) -> bool {
+    *count == 0
 }
 
 /// Blocks of 8³ points that even tiles of a grid may come to.
@@ -32,15 +40,19 @@ const MOST_BLOCKS: u64 = 1 << 24;
 
 impl Lattice {
     /// That of a volume grid. Where `edges` is set, its array reaches to the outer faces of its voxels, and keeps its value there; else it fades to
-    /// the background over one voxel beyond the active ones. Vectors count by their mean.
+    /// the background over one voxel beyond the active ones. Vectors count by their mean, values that are no finite numbers as 0.
     ///
     /// # Errors
     ///
-    /// If nothing is active, a value is no number, or tiles come to too many blocks.
+    /// If nothing is active, no value is a finite number, or tiles come to too many blocks.
     pub fn of_grid(grid: &Grid, edges: Option<[usize; 3]>) -> Result<Self, String> {
-        let scalar = |[x, y, z]: [f32; 3]| if x == y && y == z { x } else { (x + y + z) / 3.0 };
-        if grid.not_finite() > 0 {
-            return Err(format!("grid '{}': {} values are not finite", grid.name, grid.not_finite()));
+        let scalar = |[x, y, z]: [f32; 3]| {
+            let mean = if x == y && y == z { x } else { (x + y + z) / 3.0 };
+            if mean.is_finite() { mean } else { 0.0 }
+        };
+        let unknown = grid.not_finite();
+        if unknown > 0 && unknown >= grid.active_voxels() {
+            return Err(format!("grid '{}': none of its {unknown} values is a finite number", grid.name));
         }
         let (domain, extended) = match edges {
             Some(shape) => {
@@ -77,6 +89,7 @@ impl Lattice {
             values: values.collect(),
             blocks: blocks.into(),
             block_values: block_values.into(),
+            unknown,
         })
     }
 

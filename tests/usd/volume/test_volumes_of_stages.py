@@ -263,7 +263,7 @@ def test_files_in_packages(tmp_path):
 def broken_file(tmp_path, kind):
     """Writes a file with a defect; gives what is said of it."""
     path = tmp_path / "cloud.vdb"
-    grids = {"empty": 0 * CLOUD, "vector": np.stack([CLOUD] * 3, -1), "not finite": np.where(CLOUD > 0.5, np.float32("nan"), CLOUD)}
+    grids = {"empty": 0 * CLOUD, "vector": np.stack([CLOUD] * 3, -1), "not finite": np.full_like(CLOUD, np.nan)}
     vdb_file.write(path, ("density", grids.get(kind, CLOUD)), kind="level set" if kind == "level set" else "fog volume")
     data = path.read_bytes()
     match kind:
@@ -281,7 +281,7 @@ def broken_file(tmp_path, kind):
         case "vector":
             return "holds vectors (vec3s), expected numbers"
         case "not finite":
-            return "values are not finite"
+            return "values is a finite number"
         case "level set":
             return "is a level set"
     vdb_file.write(path, ("smoke", CLOUD))
@@ -296,6 +296,21 @@ def test_broken_files_are_told_once_and_the_rest_is_there(tmp_path, kind):
     assert [instances["origin"]["name"] for instances in scene["instances"]] == ["/Ball"]
     found = [message for message in told if expected in message]
     assert len(found) == 2 and all("cloud.vdb" in message for message in found), told
+
+
+def test_voxels_that_are_no_numbers_are_empty(tmp_path):
+    """The rest of the cloud is there, and the numbers are told when it is laid out."""
+    spoilt = CLOUD.copy()
+    spoilt[1, 1, 1], spoilt[0, 1, 2] = np.nan, np.inf
+    vdb_file.write(tmp_path / "cloud.vdb", ("density", spoilt))
+    scene, told = load(tmp_path, SMOKE + volume(fields="density"), file=False)
+    assert not told and at_voxel(scene["fields"][0], (1, 1, 1)) == 0.0
+    assert at_voxel(scene["fields"][0], (1, 1, 2)) == pytest.approx(CLOUD[1, 1, 2])
+    shown = gonio.load_usd(str(tmp_path / "stage.usda"), camera_light=False)
+    shown.set(width=4, height=4, samples=1)
+    with gonio.Render(shown) as render:
+        assert render.wait() and np.isfinite(np.asarray(render.film()["color"])).all()
+        assert any("2 of its values are not finite numbers" in message for _, message in render.diagnostics)
 
 
 def test_what_is_no_field_is_told(tmp_path):

@@ -44,7 +44,14 @@ pub(super) fn compile(scene: &Scene, before: &KeptFields, diagnostics: &mut Vec<
             diagnostics.push(Diagnostic::warning(&field.origin, format!("{problem}; the volume is left out")));
             false
         }
-        None => true,
+        None => {
+            let unknown: u64 = [&field.density].into_iter().chain(&field.heat).map(|lattice| lattice.unknown).sum();
+            if unknown > 0 {
+                let problem = format!("{unknown} of its values are not finite numbers, and count as 0");
+                diagnostics.push(Diagnostic::warning(&field.origin, problem));
+            }
+            true
+        }
     };
     let mut kept: Vec<bool> = scene.fields.iter().zip(&alike).map(usable).collect();
     for number in 0..kept.len() {
