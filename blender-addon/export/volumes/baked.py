@@ -9,6 +9,8 @@ from .lattice import AT_ONCE
 
 # More points than these are not asked.
 MOST = 1 << 25
+# More points than these keep no colours: they are their mean.
+COLOURED = 1 << 22
 # How far colours may be from their mean before it is told, as one minus a squared correlation.
 APART = 1e-3
 
@@ -25,6 +27,9 @@ class Baked:
     emission: np.ndarray
     density_has_colours: bool
     heat_has_colours: bool
+    # Where colours vary: what is taken and scattered at each point, red, green and blue each, and what is sent; else None.
+    taken: np.ndarray | None
+    sent: np.ndarray | None
 
 
 class _Sum:
@@ -61,12 +66,18 @@ def bake(dense, shining, lattice, grids):
     """Both over a lattice."""
     arrays = {name: grids.dense(name).on(lattice) for name in dense.grids | shining.grids}
     taken, sent, turned = _Sum(lattice.count, 6), _Sum(lattice.count, 3), 0.0
+    # Kept as long as colours may turn out to vary; large lattices have no room for them.
+    rows_taken, rows_sent = ([], []) if lattice.count <= COLOURED else (None, None)
     for start in range(0, lattice.count, AT_ONCE):
         rows = np.arange(start, min(start + AT_ONCE, lattice.count))
         found = dense.on(lattice, rows, arrays).astype(float)
         taken.add(rows, np.maximum(found[:, :6], 0.0))
         turned += float(found[:, 6].sum())
-        sent.add(rows, np.maximum(shining.on(lattice, rows, arrays).astype(float), 0.0))
+        shone = np.maximum(shining.on(lattice, rows, arrays).astype(float), 0.0)
+        sent.add(rows, shone)
+        if rows_taken is not None:
+            rows_taken.append(np.maximum(found[:, :6], 0.0).astype(np.float32))
+            rows_sent.append(shone.astype(np.float32))
     shares = taken.shares()
     shape = lattice.shape
     return Baked(
@@ -78,4 +89,11 @@ def bake(dense, shining, lattice, grids):
         sent.shares(),
         taken.are_apart(),
         sent.are_apart(),
+        _whole(rows_taken, shape) if taken.are_apart() else None,
+        _whole(rows_sent, shape) if sent.are_apart() else None,
     )
+
+
+def _whole(rows, shape):
+    """All points' numbers as an array of the lattice's shape, a colour a point."""
+    return None if rows is None else np.concatenate(rows).reshape((*shape, -1))

@@ -48,6 +48,9 @@ class Filling:
     emission: np.ndarray = field(default_factory=lambda: np.zeros(3))
     glow: list = field(default_factory=list)
     hottest: float = 0.0
+    # Where colours vary: factors on extinction and scattering, and on emission, by point.
+    taken: np.ndarray | None = None
+    sent: np.ndarray | None = None
     told: list = field(default_factory=list)
     is_placed: bool = False
     stamp: object = None
@@ -56,7 +59,7 @@ class Filling:
 
     def __post_init__(self):
         digest = blake2b(repr((self.stamp, self.glow, self.hottest)).encode(), digest_size=16)
-        for source in (self.density, self.heat):
+        for source in (self.density, self.heat, self.taken, self.sent):
             digest.update(source if isinstance(source, np.ndarray) else repr(source).encode())
         digest.update(self.to_object.tobytes())
         self.digest = digest.digest()
@@ -143,14 +146,34 @@ def _baked(dense, shining, grids, told):
         glow = glow_of(shining, float(heat.max()))
     elif not shining.grids and not shining.places:
         heat, glow = None, glow_of(shining, 0.0)
-    told = told + [("volume colours", "")] * (made.density_has_colours or (glow is None and made.heat_has_colours))
+    sent = made.sent if glow is None else None
+    lost = (made.density_has_colours and made.taken is None) or (glow is None and made.heat_has_colours and sent is None)
+    told = told + [("volume colours", "")] * lost
     glow = glow or Glow(made.emission, [], float(heat.max()))
+    if sent is not None:
+        heat, glow, sent = None, Glow(np.full(3, float(sent.max())), [], 0.0), sent / max(float(sent.max()), 1e-30)
     if not glow.emission.any():
         heat, glow = None, Glow(np.zeros(3), [], 0.0)
     coefficients = {"absorption": made.absorption, "scattering": made.scattering, "anisotropy": anisotropy(made.scattering, made.turned)}
-    shown = {"emission": glow.emission, "glow": glow.factors, "hottest": glow.hottest, "told": told}
+    density, taken = made.density, None
+    if made.taken is not None:
+        density, taken, whole = _coloured(made.taken)
+        coefficients.update(whole)
+    shown = {"emission": glow.emission, "glow": glow.factors, "hottest": glow.hottest, "taken": taken, "sent": sent, "told": told}
     is_placed = bool((dense.places | shining.places) & {"Position"})
-    return Filling(made.density, lattice.to_object, **coefficients, heat=heat, **shown, is_placed=is_placed)
+    return Filling(density, lattice.to_object, **coefficients, heat=heat, **shown, is_placed=is_placed)
+
+
+def _coloured(taken):
+    """A density, factors on extinction and scattering of each colour, and the coefficients that these multiply, of absorption and scattering by point."""
+    scattering = taken[..., 3:]
+    extinction = taken[..., :3] + scattering
+    most = max(float(extinction.max()), 1e-30)
+    whole, none = np.full(3, most), np.zeros(3)
+    scatters = bool(scattering.any())
+    coefficients = {"absorption": none if scatters else whole, "scattering": whole if scatters else none}
+    factors = np.concatenate([extinction, scattering], axis=-1) / most
+    return np.ascontiguousarray(factors[..., :3].max(axis=-1)), np.ascontiguousarray(factors), coefficients
 
 
 def lattice_of(names, grids):

@@ -1,7 +1,7 @@
 //! Fields of media in Python: arrays, or grids of OpenVDB's and NanoVDB's files.
 
 use crate::{buffer::floats, error::setting};
-use gonio::scene::{Field, Lattice};
+use gonio::scene::{COLOURS, Field, Lattice};
 use pyo3::{exceptions::PyValueError, prelude::*};
 use std::path::PathBuf;
 
@@ -14,8 +14,13 @@ pub(crate) enum Source<'py> {
     Array(Bound<'py, PyAny>),
 }
 
-/// A described field with its numbers.
-pub(crate) fn filled(py: Python<'_>, described: Field, density: &Source<'_>, heat: Option<&Source<'_>>) -> PyResult<Field> {
+/// A described field with its numbers; `colours` are arrays with a last axis of so many components, extinction and scattering, and emission.
+pub(crate) fn filled(
+    py: Python<'_>,
+    described: Field,
+    (density, heat): (&Source<'_>, Option<&Source<'_>>),
+    colours: [Option<Bound<'_, PyAny>>; 2],
+) -> PyResult<Field> {
     let told = |problem: String| setting(&described.origin.to_string(), problem);
     let Field { origin, to_world, glow, hottest, .. } = described.clone();
     let mut field = match (density, heat) {
@@ -37,9 +42,35 @@ pub(crate) fn filled(py: Python<'_>, described: Field, density: &Source<'_>, hea
         }
         _ => return Err(told("density is a grid of a file, heat is to be one of the same file".into())),
     };
+    let [taken, sent] = colours;
+    field.taken = coloured(py, &field, taken.as_ref(), "taken", COLOURS[0])?;
+    field.sent = coloured(py, &field, sent.as_ref(), "sent", COLOURS[1])?;
     field.glow = glow;
     field.hottest = if hottest > 0.0 { hottest } else { field.heat.as_ref().map_or(0.0, Lattice::most) };
     Ok(field)
+}
+
+/// A lattice for each component of an array (nx, ny, nz, components) that goes with a field's own.
+fn coloured(py: Python<'_>, field: &Field, array: Option<&Bound<'_, PyAny>>, name: &str, components: usize) -> PyResult<Vec<Lattice>> {
+    let Some(array) = array else { return Ok(Vec::new()) };
+    let shape: Vec<usize> = array.getattr("shape")?.extract()?;
+    let [x, y, z, found] = shape[..] else {
+        return Err(PyValueError::new_err(format!("{name}: the shape is {shape:?}, expected (nx, ny, nz, {components})")));
+    };
+    if found != components || shape.contains(&0) {
+        return Err(PyValueError::new_err(format!("{name}: the shape is {shape:?}, expected (nx, ny, nz, {components})")));
+    }
+    let values = floats(&array.call_method1("reshape", (-1,))?, name, 1)?.values;
+    let one = |part: usize| Lattice::of_values(&values.iter().skip(part).step_by(components).copied().collect::<Vec<_>>(), [x, y, z]);
+    let made: Result<Vec<Lattice>, String> = py.detach(|| (0..components).map(one).collect());
+    let made = made.map_err(PyValueError::new_err)?;
+    match made.iter().find(|lattice| lattice.domain != field.density.domain) {
+        None => Ok(made),
+        Some(other) => {
+            let problem = format!("{name} fills {:?}, density {:?}: expected arrays of one shape", other.domain, field.density.domain);
+            Err(PyValueError::new_err(problem))
+        }
+    }
 }
 
 fn lattice(py: Python<'_>, array: &Bound<'_, PyAny>, name: &str) -> PyResult<Lattice> {

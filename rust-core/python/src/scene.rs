@@ -360,7 +360,11 @@ impl Scene {
     ///
     /// `density` and `heat` are arrays (nx, ny, nz), or a file and the name of its grid. The description's `to_world` leads to the world from an array's
     /// voxels, whose centres are whole numbers, or from the file's space.
-    #[pyo3(signature = (description, index = None, *, density, heat = None))]
+    ///
+    /// Where colours vary, `taken` is an array (nx, ny, nz, 6) of factors on the medium's extinction, R, G, B, and on its scattering, of which the
+    /// density is at least the greatest; `sent` (nx, ny, nz, 3) has factors on its emission, in place of the heat.
+    #[pyo3(signature = (description, index = None, *, density, heat = None, taken = None, sent = None))]
+    #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn put_field(
         &mut self,
         py: Python<'_>,
@@ -368,9 +372,11 @@ impl Scene {
         index: Option<u32>,
         density: field::Source<'_>,
         heat: Option<field::Source<'_>>,
+        taken: Option<Bound<'_, PyAny>>,
+        sent: Option<Bound<'_, PyAny>>,
     ) -> PyResult<u32> {
         let described = description::read(description, "field")?;
-        let field = field::filled(py, described, &density, heat.as_ref())?;
+        let field = field::filled(py, described, (&density, heat.as_ref()), [taken, sent])?;
         description::put(&mut self.scene.fields, "field", field, index)
     }
 

@@ -136,7 +136,17 @@ pub struct Field {
     pub glow: Vec<[f32; 3]>,
     /// The heat of the last factor; above it, that stays.
     pub hottest: f32,
+    /// Where colours vary: factors on the medium's extinction, R, G, B, and on its scattering, R, G, B, in place of the density, which is at least the
+    /// greatest of them everywhere; else empty.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub taken: Vec<Lattice>,
+    /// Where the colour that is sent varies: factors on the medium's emission, R, G, B, in place of the heat; else empty.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub sent: Vec<Lattice>,
 }
+
+/// Lattices of [`Field::taken`] and of [`Field::sent`], where there are any.
+pub const COLOURS: [usize; 2] = [6, 3];
 
 impl Field {
     /// That of a file's grids, placed by a map from the file's space to the world.
@@ -156,7 +166,7 @@ impl Field {
         let heat = heat.map(|grid| Lattice::of_grid(&grid, None)).transpose()?;
         let hottest = heat.as_ref().map_or(0.0, Lattice::most);
         let density = Lattice::of_grid(&density, None)?;
-        Ok(Self { origin, to_world: to_world.after(&inner), density, heat, glow: Vec::new(), hottest })
+        Ok(Self { origin, to_world: to_world.after(&inner), density, heat, hottest, ..Self::default() })
     }
 
     /// Whether both are the same but for their names and where they lie.
@@ -165,7 +175,17 @@ impl Field {
             (Some(a), Some(b)) => a.holds_arrays_of(b),
             (a, b) => a.is_none() && b.is_none(),
         };
-        heats_are_one && self.density.holds_arrays_of(&other.density) && (&self.glow, self.hottest) == (&other.glow, other.hottest)
+        let are_one = |a: &[Lattice], b: &[Lattice]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.holds_arrays_of(b));
+        let colours_are_one = are_one(&self.taken, &other.taken) && are_one(&self.sent, &other.sent);
+        heats_are_one
+            && colours_are_one
+            && self.density.holds_arrays_of(&other.density)
+            && (&self.glow, self.hottest) == (&other.glow, other.hottest)
+    }
+
+    /// All of its lattices.
+    pub fn lattices(&self) -> impl Iterator<Item = &Lattice> {
+        [&self.density].into_iter().chain(&self.heat).chain(&self.taken).chain(&self.sent)
     }
 
     /// The box about all of it, lattice coordinates.

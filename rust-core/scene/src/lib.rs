@@ -54,7 +54,7 @@ pub use dicing::Dicing;
 pub use digest::{Digest, Digesting};
 pub use displacement::{Displacement, DisplacementKind};
 pub use error::{Diagnostic, Error, Result, Severity};
-pub use field::{Field, Lattice};
+pub use field::{COLOURS, Field, Lattice};
 pub use gonio_formats::photometry::{Opening, OpeningShape, PhotometricType};
 pub use gonio_nodes::{
     Channel, Graph, Input, LightPathValue, Node, NodeId, Operation, Quantity, Space, TextureFilter, TextureId, WrapMode,

@@ -2,7 +2,7 @@
 
 use crate::{
     error::Diagnostic,
-    scene::{BRICK_EDGE, BRICK_VOXELS, Field, Lattice, Scene},
+    scene::{BRICK_EDGE, BRICK_VOXELS, COLOURS, Field, Lattice, Scene},
     transport::{FieldLayout, FieldRow, FieldTable, GLOW, Numbers, POINTS},
 };
 use std::collections::HashMap;
@@ -45,7 +45,7 @@ pub(super) fn compile(scene: &Scene, before: &KeptFields, diagnostics: &mut Vec<
             false
         }
         None => {
-            let unknown: u64 = [&field.density].into_iter().chain(&field.heat).map(|lattice| lattice.unknown).sum();
+            let unknown: u64 = field.lattices().map(|lattice| lattice.unknown).sum();
             if unknown > 0 {
                 let problem = format!("{unknown} of its values are not finite numbers, and count as 0");
                 diagnostics.push(Diagnostic::warning(&field.origin, problem));
@@ -106,8 +106,11 @@ fn problem(field: &Field, filled: Option<&mut usize>) -> Option<String> {
     if field.to_world.inverse().is_none() || !is_box {
         return Some("it is flat, or lies at no finite place".into());
     }
-    let lattices = || [&field.density].into_iter().chain(&field.heat);
-    if lattices()
+    if [&field.taken, &field.sent].iter().zip(COLOURS).any(|(colours, count)| ![0, count].contains(&colours.len())) {
+        return Some("its colours are not of three components each".into());
+    }
+    if field
+        .lattices()
         .any(|lattice| lattice.values.len() != lattice.bricks.len() * BRICK_VOXELS || lattice.blocks.len() != lattice.block_values.len())
     {
         return Some("its arrays have other lengths than its bricks".into());
@@ -118,7 +121,7 @@ fn problem(field: &Field, filled: Option<&mut usize>) -> Option<String> {
     }
     let filled = filled?;
     // The neighbours on the side of lesser coordinates of each brick vary with it.
-    *filled += lattices().map(|lattice| (lattice.bricks.len() + lattice.blocks.len()) * 2).sum::<usize>();
+    *filled += field.lattices().map(|lattice| (lattice.bricks.len() + lattice.blocks.len()) * 2).sum::<usize>();
     (*filled > MOST_FILLED)
         .then(|| format!("all volumes together have {filled} bricks that vary, at most {MOST_FILLED} are held: resample it"))
 }
@@ -141,19 +144,29 @@ struct Laid<'a> {
     field: &'a Field,
     density: Places<'a>,
     heat: Option<Places<'a>>,
+    taken: Vec<Places<'a>>,
+    sent: Vec<Places<'a>>,
 }
 
 impl<'a> Laid<'a> {
     fn new(field: &'a Field) -> Self {
         let base = base(field);
-        Self { field, density: Places::new(&field.density, base), heat: field.heat.as_ref().map(|heat| Places::new(heat, base)) }
+        let all = |lattices: &'a [Lattice]| lattices.iter().map(|lattice| Places::new(lattice, base)).collect();
+        Self {
+            field,
+            density: Places::new(&field.density, base),
+            heat: field.heat.as_ref().map(|heat| Places::new(heat, base)),
+            taken: all(&field.taken),
+            sent: all(&field.sent),
+        }
     }
 
     fn layout(&self) -> FieldLayout<'_> {
         let (field, base) = (self.field, base(self.field));
         let domain = field.domain().map(|corner| [0, 1, 2].map(|axis| corner[axis] - base[axis] as f32));
         let heat = self.heat.as_ref().map(|heat| heat as &dyn Numbers);
-        FieldLayout { bricks: bricks(field), domain, density: &self.density, heat, glow: glow(field), hottest: field.hottest }
+        let [taken, sent] = [&self.taken, &self.sent].map(|places| places.iter().map(|places| places as &dyn Numbers).collect());
+        FieldLayout { bricks: bricks(field), domain, density: &self.density, heat, taken, sent, glow: glow(field), hottest: field.hottest }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::tables::fields::{FieldTable, GLOW, LOG2_BRICK, LOG2_COARSE, ROW, WORDS};
 use crate::tables::media::MediumTable;
-use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
+use gonio_simd::{F, Lanes, M, Rgb, Spectrum, U, Vec3, Wavelengths};
 
 /// A register of rays in the coordinates of their fields.
 #[derive(Clone, Copy, Debug)]
@@ -18,6 +18,8 @@ pub(crate) struct FieldRays<L: Lanes> {
     /// See [`FieldTable::bricks`] and [`FieldTable::coarse`].
     bricks: [U<L>; 4],
     coarse: [U<L>; 4],
+    /// See [`FieldTable::colours`]; none where no field has any.
+    colours: Option<[[U<L>; 4]; 3]>,
     /// Metres that stand for nothing: a thousandth of a cell.
     step: F<L>,
 }
@@ -66,6 +68,13 @@ impl<L: Lanes> FieldRays<L> {
             hottest: low[3],
             bricks: l.gather_integer_quads(&table.bricks, at),
             coarse: l.gather_integer_quads(&table.coarse, at),
+            colours: match table.is_coloured {
+                true => Some(table.colours.each_ref().map(
+                    #[inline(always)]
+                    |colours| l.gather_integer_quads(colours, at),
+                )),
+                false => None,
+            },
             step: direction.max_abs().max(1e-20).recip() * 1e-3,
         }
     }
@@ -155,11 +164,34 @@ impl<L: Lanes> FieldRays<L> {
         value(l, table, &self.place(distance), self.bricks[2]).keep_if(self.any())
     }
 
+    /// Factors on scattering and extinction after so many metres, where the density is this.
+    #[inline(always)]
+    pub(crate) fn taken(&self, l: L, table: &FieldTable, distance: F<L>, density: F<L>) -> [Spectrum<L>; 2] {
+        let even = Spectrum::constant(density);
+        let Some([extinction, scattering, _]) = &self.colours else { return [even; 2] };
+        let vary = extinction[0].ne(0);
+        if !vary.any() {
+            return [even; 2];
+        }
+        let place = self.place(distance);
+        let [scattering, extinction] = [scattering, extinction].map(
+            #[inline(always)]
+            |first| vary.select(coloured(l, table, &place, first), even),
+        );
+        [scattering, extinction]
+    }
+
     /// Factor on the emission after so many metres; 0 outside.
     #[inline(always)]
     pub(crate) fn glow(&self, l: L, media: &MediumTable, distance: F<L>) -> Spectrum<L> {
         let inside = Spectrum::constant(l.f(1.0).keep_if(self.holds(self.at(distance))));
         let is_hot = self.bricks[3].ne(0);
+        let inside = match &self.colours {
+            Some([_, _, sent]) if sent[0].ne(0).any() => {
+                inside * sent[0].ne(0).select(coloured(l, &media.fields, &self.place(distance), sent), Spectrum::one(l))
+            }
+            _ => inside,
+        };
         if !is_hot.any() {
             return inside;
         }
@@ -198,6 +230,13 @@ fn leaving<L: Lanes>(cell: U<L>, edge: U<L>, [low, high]: [F<L>; 2], [origin, in
     // Not by the direction: where that is 0, its inverse is large and positive.
     let face = inverse.gt(0.0).select((first + edge).i32_to_float().min(high), first.i32_to_float().max(low));
     (face - origin) * inverse
+}
+
+/// A colour at a place, by the first bricks of its components.
+#[inline(always)]
+fn coloured<L: Lanes>(l: L, table: &FieldTable, place: &Place<L>, [r, g, b, _]: &[U<L>; 4]) -> Spectrum<L> {
+    let colour = Rgb::new(value(l, table, place, *r), value(l, table, place, *g), value(l, table, place, *b));
+    Wavelengths::rgb(l).coefficient(colour)
 }
 
 /// The trilinear value at a place of the lattice whose bricks begin at one.

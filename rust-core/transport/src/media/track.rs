@@ -152,15 +152,16 @@ impl<'a, L: Lanes> Track<'a, L> {
         )
     }
 
-    /// Scattering and extinction a metre where the media have these densities.
+    /// Scattering and extinction a metre after so many metres, where the media have these densities.
     #[inline(always)]
-    pub(crate) fn coefficients(&self, densities: [F<L>; 4]) -> [Spectrum<L>; 2] {
+    pub(crate) fn coefficients(&self, distance: F<L>, densities: [F<L>; 4]) -> [Spectrum<L>; 2] {
         let l = densities[0].lanes();
         let mut sums = [Spectrum::zero(l); 2];
         for (part, density) in self.parts.iter().zip(densities) {
             let Some(part) = part else { continue };
-            sums[0] += part.scattering * density;
-            sums[1] += part.extinction * density;
+            let [scattering, extinction] = part.rays.taken(l, &self.table.fields, distance, density);
+            sums[0] += part.scattering * scattering;
+            sums[1] += part.extinction * extinction;
         }
         sums
     }
@@ -214,7 +215,7 @@ impl<'a, L: Lanes> Track<'a, L> {
             flight = collides.select(depth(random.next()), (flight - majorant * (next - t)).max(0.0));
             t = next;
             if collides.any() {
-                let [scattering, extinction] = self.coefficients(self.densities(t));
+                let [scattering, extinction] = self.coefficients(t, self.densities(t));
                 let null = Spectrum::constant(majorant) + extinction * l.f(-1.0);
                 let probability = match scatter {
                     Some((channels, _)) => {

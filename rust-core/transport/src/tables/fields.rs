@@ -38,6 +38,10 @@ pub struct FieldLayout<'a> {
     pub density: &'a dyn Numbers,
     /// What the emission follows.
     pub heat: Option<&'a dyn Numbers>,
+    /// Where colours vary, factors on extinction and scattering, R, G, B each; else empty.
+    pub taken: Vec<&'a dyn Numbers>,
+    /// Where the colour that is sent varies, factors on it, R, G, B; else empty.
+    pub sent: Vec<&'a dyn Numbers>,
     /// Factors on the emission, evenly from heat 0 to `hottest`.
     pub glow: [[f32; 3]; GLOW],
     /// The heat of the last.
@@ -66,6 +70,10 @@ pub struct FieldTable {
     pub(crate) bricks: Column<u32>,
     /// Bricks along y and z of the coarse ones, the first of those, and the number of the field's glow.
     pub(crate) coarse: Column<u32>,
+    /// The first brick's bounds of the extinction's colours, R, G, B, and a blank; the same of the scattering's and of the emission's. 0 for none.
+    pub(crate) colours: [Column<u32>; 3],
+    /// Whether any field has colours that vary.
+    pub(crate) is_coloured: bool,
     /// By brick: least value, span of its codes, greatest value, place of its words over [`WORDS`], as bits.
     pub(crate) bounds: Arc<Column>,
     /// By coarse brick, 1 where there is any density or heat.
@@ -107,6 +115,9 @@ impl FieldTable {
             let colour = seen([glow[0], glow[1], glow[2]]);
             glow[..3].copy_from_slice(&colour);
         }
+        // Their components are no wavelengths.
+        self.colours.iter_mut().for_each(|colours| colours.fill(0));
+        self.is_coloured = false;
     }
     /// Bytes of it.
     pub fn memory(&self) -> usize {
@@ -120,6 +131,7 @@ struct Layout {
     domain: [Vec<f32>; 2],
     bricks: Vec<u32>,
     coarse: Vec<u32>,
+    colours: [Vec<u32>; 3],
     bounds: Vec<f32>,
     filled: Vec<f32>,
     words: Vec<u32>,
@@ -134,6 +146,7 @@ impl Default for Layout {
             domain: [vec![0.0; ROW], vec![0.0; ROW]],
             bricks: vec![1, 1, 0, 0],
             coarse: vec![1, 1, 0, 0],
+            colours: [0; 3].map(|_| vec![0; ROW]),
             bounds: vec![0.0; ROW],
             filled: vec![0.0],
             words: vec![0; WORDS],
@@ -152,13 +165,18 @@ impl Layout {
         let density = self.numbers(field.bricks, field.density);
         let heat = field.heat.map_or(0, |heat| self.numbers(field.bricks, heat));
         self.bricks.extend([ny, nz, density, heat]);
+        let all = [field.taken.get(..3), field.taken.get(3..), field.sent.get(..)].map(Option::unwrap_or_default);
+        let colours = all.map(|all| [0, 1, 2].map(|part| all.get(part).map_or(0, |numbers| self.numbers(field.bricks, *numbers))));
+        for (rows, [r, g, b]) in self.colours.iter_mut().zip(colours) {
+            rows.extend([r, g, b, 0]);
+        }
         let coarse = field.bricks.map(|n| n.div_ceil(1 << LOG2_COARSE));
         let first = self.filled.len();
         self.coarse.extend([coarse[1] as u32, coarse[2] as u32, first as u32, (self.glow.len() / (ROW * GLOW)) as u32]);
         self.filled.resize(first + coarse.iter().product::<usize>(), 0.0);
         for (number, [x, y, z]) in places(field.bricks).enumerate() {
             let any = |first: u32| first != 0 && self.bounds[(first as usize + number) * ROW + 2] > 0.0;
-            if any(density) || any(heat) {
+            if any(density) || any(heat) || colours[2].iter().any(|first| any(*first)) {
                 let [x, y, z] = [x, y, z].map(|n| n >> LOG2_COARSE);
                 self.filled[first + (x * coarse[1] + y) * coarse[2] + z] = 1.0;
             }
@@ -171,6 +189,7 @@ impl Layout {
         let row = row * ROW..(row + 1) * ROW;
         self.to_lattice.iter_mut().chain(&mut self.domain).for_each(|rows| rows.extend_from_within(row.clone()));
         self.bricks.extend_from_within(row.clone());
+        self.colours.iter_mut().for_each(|rows| rows.extend_from_within(row.clone()));
         self.coarse.extend_from_within(row);
     }
 
@@ -209,6 +228,8 @@ impl Layout {
             domain: self.domain.map(|rows| column(&rows)),
             bricks: column(&self.bricks),
             coarse: column(&self.coarse),
+            is_coloured: self.colours.iter().flatten().any(|first| *first != 0),
+            colours: self.colours.map(|rows| column(&rows)),
             bounds: column(&self.bounds).into(),
             filled: column(&self.filled).into(),
             words: column(&self.words).into(),

@@ -83,7 +83,7 @@ pub(super) fn track<L: Lanes>(
     let densities = track.densities(found.distance);
     let phase = PhaseMix::at(l, way.core.media, &context.tables.materials.media, densities);
     way.phase = way.phase.or(phase, scattered);
-    let [_, extinction] = track.coefficients(densities);
+    let [_, extinction] = track.coefficients(found.distance, densities);
     way.extinction = scattered.select(extinction, way.extinction);
     Flight {
         scatters: even.scatters | scattered,
