@@ -29,7 +29,7 @@ def _untold(what, instead):
 
 OBJECTS = {
     "kind of object": Limit("Grease pencil", "left out"),
-    "volume colours": Limit("Colours of volumes that vary from place to place", "the mean colour; the density varies"),
+    "volume colours": Limit("Colours of volumes that vary from place to place, over more than 2²² points", "the mean colour; the density varies"),
     "volume size": Limit(
         "Densities of volume objects that are no multiple of one grid, over more than 2²⁵ voxels", "a multiple of that grid; they do not shine"
     ),

@@ -5,7 +5,7 @@ import math
 import gonio
 import numpy as np
 import pytest
-from gonio.medium import medium
+from gonio.medium import medium, volume_material
 from small_scenes import closure, finished
 from test_media import box, looking, seen, within
 
@@ -187,3 +187,43 @@ def test_smoke_that_touches_glass_sends_no_light_of_its_own():
     shown = np.asarray(finished(scene)["color"])[..., :3]
     assert np.isfinite(shown).all()
     assert shown.min() >= 0.0 and shown.max() < 8.0
+
+
+def coloured_box(scene, taken, sent=None, **coefficients):
+    """A box of 2 m of voxels of 0.25 m with these arrays of colours about the origin."""
+    taken = np.broadcast_to(np.asarray(taken, "f4"), (8, 8, 8, 6))
+    described = {"origin": "box", "to_world": {"columns": [[0.25, 0, 0], [0, 0.25, 0], [0, 0, 0.25], [-0.875] * 3]}}
+    arrays = {"density": np.ascontiguousarray(taken[..., :3].max(axis=-1)), "taken": np.ascontiguousarray(taken)}
+    if sent is not None:
+        arrays["sent"] = np.ascontiguousarray(np.broadcast_to(np.asarray(sent, "f4"), (8, 8, 8, 3)))
+    field = scene.put_field(described, **arrays)
+    mesh, place = scene.put_field_box(field)
+    material = scene.put_material(volume_material("box", {**medium(**coefficients), "field": field}))
+    scene.add_instance(mesh, [material], transform=place)
+
+
+def test_colours_that_vary_dim_as_they_are():
+    """Half of the way through red smoke and half through blue, by Beer and Lambert; even colours as those of an even medium."""
+    taken = np.zeros((8, 8, 8, 6), "f4")
+    taken[:, :, :4, :3], taken[:, :, 4:, :3] = (0.2, 1.0, 0.5), (1.0, 0.1, 0.3)
+    scene = looking((0.0, 0.0, 5.0), (0.0, 0.0, 0.0))
+    scene.add_light("dome", (1.0,) * 3)
+    coloured_box(scene, taken, absorption=1.5)
+    found, _ = seen(scene, 1024)
+    # From the middle of one voxel to that of the next colours go straight over.
+    depth = 1.5 * 0.25 * (4.0 * np.array([0.2, 1.0, 0.5]) + 4.0 * np.array([1.0, 0.1, 0.3]))
+    assert found == pytest.approx(np.exp(-depth), rel=0.02)
+
+
+def test_even_colours_are_an_even_medium():
+    """Scattered and sent light of arrays whose numbers are the same everywhere."""
+    found = []
+    for is_field in (False, True):
+        scene = looking((0.0, 0.0, 5.0), (0.0, 0.0, 0.0), size=16, degrees=20.0)
+        scene.add_light("dome", (1.0,) * 3)
+        if is_field:
+            coloured_box(scene, [0.3, 0.8, 1.0, 0.3, 0.4, 0.1], sent=[1.0, 0.5, 0.0], scattering=2.0, emission=0.5)
+        else:
+            box(scene, (-1.0,) * 3, (1.0,) * 3, scattering=(0.6, 0.8, 0.2), absorption=(0.0, 0.8, 1.8), emission=(0.5, 0.25, 0.0))
+        found.append(seen(scene, 256)[0])
+    assert found[1] == pytest.approx(found[0], rel=0.01)

@@ -92,8 +92,15 @@ class Insides:
 
     def _in_the_mean(self, part, filling, here):
         """A medium that is the same everywhere, with as much in the box of the mesh."""
-        medium, sent = filling.medium(float(filling.density.mean())), 1.0 if filling.heat is None else float(filling.heat.mean())
-        return {**medium, "emission": [float(x) * sent for x in filling.emission]}
+        medium, sent = filling.medium(float(filling.density.mean())), np.ones(3)
+        if filling.taken is not None:
+            extinction, scattering = filling.taken.reshape(-1, 2, 3).mean(axis=0) * (filling.absorption + filling.scattering).max()
+            medium.update(absorption=(extinction - scattering).tolist(), scattering=scattering.tolist())
+        if filling.sent is not None:
+            sent = filling.sent.reshape(-1, 3).mean(axis=0)
+        elif filling.heat is not None:
+            sent = np.full(3, float(filling.heat.mean()))
+        return {**medium, "emission": (np.asarray(filling.emission) * sent).tolist()}
 
     def _filling(self, part, inside, here):
         """What fills one placement, made anew where nothing known is the same."""

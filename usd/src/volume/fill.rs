@@ -282,6 +282,7 @@ impl Filler<'_, '_, '_> {
             hottest: heat.as_ref().map_or(0.0, Lattice::most),
             heat,
             glow,
+            ..SceneField::default()
         };
         if is_even {
             let message = || format!("the material <{}> follows no field; the box about the grid is filled evenly", self.shading.path);
