@@ -104,11 +104,13 @@ class Recorder:
     def put_measured(self, measured, *, name, index=None):
         return self._put("measured", {"measured": measured, "name": name}, index)
 
-    def put_field(self, description, index=None, *, density, heat=None):
+    def put_field(self, description, index=None, *, density, heat=None, **colours):
         for source in (density, heat):
             check(isinstance(source, tuple) or source is None or (source.ndim == 3 and source.dtype == np.float32), description)
             check(not isinstance(source, tuple) or Path(source[0]).is_file(), source)
-        return self._put("fields", {**description, "density": density, "heat": heat}, index)
+        for name, array in colours.items():
+            check(array.shape == (*density.shape, {"taken": 6, "sent": 3}[name]) and array.dtype == np.float32, description)
+        return self._put("fields", {**description, "density": density, "heat": heat, **colours}, index)
 
     def put_field_box(self, field, index=None):
         """The box of nothing, at the place of the field's array."""

@@ -87,7 +87,7 @@ class Volumes:
         field, is_new = self._fields.take(key)
         if is_new:
             described = {"origin": _origin(name), "to_world": columns(to_world), "glow": filling.glow, "hottest": filling.hottest}
-            sources = {"density": filling.density, "heat": filling.heat, "taken": filling.taken, "sent": filling.sent}
+            sources = {"density": filling.density, "heat": filling.heat, **filling.colours()}
             self._fields.place(lambda index: self._scene.put_field(described, index, **sources), field)
             self.any_written = True
         return field, key, is_new

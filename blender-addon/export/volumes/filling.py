@@ -64,6 +64,10 @@ class Filling:
         digest.update(self.to_object.tobytes())
         self.digest = digest.digest()
 
+    def colours(self):
+        """The arrays of colours that there are."""
+        return {name: array for name in ("taken", "sent") if (array := getattr(self, name)) is not None}
+
     def medium(self, density):
         """The medium of a material, so many times as dense."""
         parts = {name: [float(x) * density for x in getattr(self, name)] for name in ("absorption", "scattering", "emission")}

@@ -130,7 +130,7 @@ def test_haze_of_the_world_about_a_spot(tmp_path):
     import bpy
     from recorder import link
 
-    made = look()
+    made = look(samples=1024)
     tree = made.world.node_tree
     shader = filled(tree, "VolumeScatter", Color=(0.9, 0.9, 0.9, 1.0), Density=0.15, Anisotropy=0.5)
     tree.links.new(shader.outputs[0], next(node for node in tree.nodes if node.type == "OUTPUT_WORLD").inputs["Volume"])

@@ -86,3 +86,27 @@ def test_glow_by_density_and_a_ramp(tmp_path):
     thing = cloud(stored(tmp_path / "glow.vdb", corner=(-6, -6, -6), density=ball()), made)
     thing.scale = (1.5, 1.5, 1.5)
     alike(tmp_path)
+
+
+@pytest.mark.blender(seconds=900)
+@pytest.mark.parametrize("what", ["Color", "Emission Color"])
+def test_colours_that_vary_over_a_cloud(tmp_path, what):
+    """From red on one side to blue on the other: what is scattered, or what is sent."""
+    from clouds import ball, cloud, filled, stored
+
+    look(samples=64)
+    made, tree, shader = filled("VolumePrincipled", Density=3.0)
+    if what == "Emission Color":
+        # Where there is smoke: Cycles takes light from whole blocks of voxels else.
+        tree.links.new(tree.nodes.new("ShaderNodeVolumeInfo").outputs["Density"], shader.inputs["Emission Strength"])
+    place, apart, ramp = (tree.nodes.new(f"ShaderNode{kind}") for kind in ("TexCoord", "SeparateXYZ", "ValToRGB"))
+    moved = tree.nodes.new("ShaderNodeMath")
+    moved.operation, moved.inputs[1].default_value, moved.inputs[2].default_value = "MULTIPLY_ADD", 0.4, 0.5
+    ramp.color_ramp.elements[0].color, ramp.color_ramp.elements[1].color = (0.9, 0.2, 0.1, 1.0), (0.1, 0.3, 0.95, 1.0)
+    tree.links.new(place.outputs["Object"], apart.inputs[0])
+    tree.links.new(apart.outputs["X"], moved.inputs[0])
+    tree.links.new(moved.outputs[0], ramp.inputs[0])
+    tree.links.new(ramp.outputs["Color"], shader.inputs[what])
+    cloud(stored(tmp_path / "cloud.vdb", voxel=0.25, corner=(-6, -6, -6), density=ball()), made)
+    lit()
+    alike(tmp_path)

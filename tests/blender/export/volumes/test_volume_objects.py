@@ -101,7 +101,7 @@ def test_what_varies_otherwise_is_asked_point_by_point(tmp_path):
 
 
 @pytest.mark.blender
-def test_colours_by_voxel_are_their_mean_and_told(tmp_path):
+def test_colours_by_voxel_are_kept(tmp_path):
     import numpy as np
     from clouds import ball, cloud, exported, filled, stored
     from recorder import empty
@@ -113,6 +113,38 @@ def test_colours_by_voxel_are_their_mean_and_told(tmp_path):
     colour[:6, ..., 0], colour[6:, ..., 2] = 1.0, 1.0
     cloud(stored(tmp_path / "cloud.vdb", density=ball(), color=colour), made)
     _, scene, lines = exported()
+    assert not lines
+    medium, field = scene.materials[0]["medium"], scene.fields[0]
+    assert medium["absorption"] == [0.0] * 3 and medium["scattering"][0] == medium["scattering"][2]
+    scattering = medium["scattering"][0] * field["taken"][1:-1, 1:-1, 1:-1, 3:]
+    density = np.asarray(field["density"])
+    # Red on one side and blue on the other; what is not scattered of a colour is absorbed.
+    assert scattering[:6, ..., 0] == pytest.approx(ball()[:6], abs=1e-5)
+    assert scattering[6:, ..., 2] == pytest.approx(ball()[6:], abs=1e-5)
+    assert not scattering[..., 1].any() and not scattering[6:, ..., 0].any()
+    assert np.allclose(density, field["taken"][..., :3].max(-1)) and (field["taken"][..., 3:] <= field["taken"][..., :3] + 1e-6).all()
+
+
+@pytest.mark.blender
+def test_colours_of_very_many_voxels_are_their_mean_and_told(tmp_path):
+    import sys
+
+    import numpy as np
+    from clouds import ball, cloud, exported, filled, stored
+    from recorder import empty
+
+    empty()
+    made, _, shader = filled("VolumePrincipled", Color=(1.0, 1.0, 1.0, 1.0))
+    shader.inputs["Color Attribute"].default_value = "color"
+    colour = np.zeros((12, 12, 12, 3), dtype=np.float32)
+    colour[:6, ..., 0], colour[6:, ..., 2] = 1.0, 1.0
+    cloud(stored(tmp_path / "cloud.vdb", density=ball(), color=colour), made)
+    baked = sys.modules["gonio_extension.export.volumes.baked"]
+    before, baked.COLOURED = baked.COLOURED, 100
+    try:
+        _, scene, lines = exported()
+    finally:
+        baked.COLOURED = before
     assert len(lines) == 1 and "the mean colour" in lines[0]
     scattering = np.array(scene.materials[0]["medium"]["scattering"])
     assert scattering[0] == pytest.approx(scattering[2]) and scattering[1] == 0.0
