@@ -1,8 +1,8 @@
 //! Lookups in fields along rays: densities, heats, and cells whose density has a bound.
 
 use crate::tables::fields::{FieldTable, GLOW, LOG2_BRICK, LOG2_COARSE, ROW, WORDS};
-use crate::tables::media::MediumTable;
-use gonio_simd::{F, Lanes, M, Rgb, Spectrum, U, Vec3, Wavelengths};
+use crate::tables::media::{MediumTable, coefficient};
+use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
 
 /// A register of rays in the coordinates of their fields.
 #[derive(Clone, Copy, Debug)]
@@ -235,8 +235,7 @@ fn leaving<L: Lanes>(cell: U<L>, edge: U<L>, [low, high]: [F<L>; 2], [origin, in
 /// A colour at a place, by the first bricks of its components.
 #[inline(always)]
 fn coloured<L: Lanes>(l: L, table: &FieldTable, place: &Place<L>, [r, g, b, _]: &[U<L>; 4]) -> Spectrum<L> {
-    let colour = Rgb::new(value(l, table, place, *r), value(l, table, place, *g), value(l, table, place, *b));
-    Wavelengths::rgb(l).coefficient(colour)
+    coefficient(l, [value(l, table, place, *r), value(l, table, place, *g), value(l, table, place, *b)])
 }
 
 /// The trilinear value at a place of the lattice whose bricks begin at one.

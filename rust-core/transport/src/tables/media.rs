@@ -145,6 +145,12 @@ impl MediumTable {
     }
 }
 
+/// What varies from place to place, by its red, green and blue.
+#[inline(always)]
+pub(crate) fn coefficient<L: Lanes>(l: L, [r, g, b]: [F<L>; 3]) -> Spectrum<L> {
+    Wavelengths::rgb(l).coefficient(Rgb::new(r, g, b))
+}
+
 /// A column by row; row 0 is 0.
 fn column(rows: &[Medium], of: impl Fn(&Medium) -> f32) -> Column {
     let mut column = Column::new(rows.len() + PADDING);
