@@ -50,7 +50,7 @@ OBJECTS = {
     ),
     "open volumes": _untold(
         "Volumes of meshes that are open, or whose normals look inwards, before nothing",
-        "endless, as deep as they look; Cycles leaves them off rays that meet nothing",
+        "endless, as deep as they look, but for their light; Cycles leaves them off rays that meet nothing",
     ),
     "volume extent": _untold(
         "Emission of volume objects where their grids hold nothing", "it ends a voxel beyond what they hold; in Cycles with blocks of 8³ voxels"

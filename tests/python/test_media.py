@@ -197,3 +197,33 @@ def test_lamps_are_found_beside_a_sky_that_does_not_arrive(lamp, floor):
         scene.put_atmosphere(medium(scattering=0.01))
         found.append(seen(scene, 64, max_bounces=1)[0][0])
     assert found[1] == pytest.approx(found[0], rel=0.03) and found[0] > 0.1
+
+
+def test_what_only_bounds_fog_is_no_transparent_bounce():
+    """Six boxes that absorb, one behind the other, with a limit of two transparent bounces: for rays of the camera and of shadows."""
+    for straight in (2, 64):
+        scene = looking((0.0, 0.0, 8.0), (0.0, 0.0, 0.0))
+        for number in range(6):
+            box(scene, (-1.0, -1.0, float(number)), (1.0, 1.0, number + 0.5), absorption=0.05)
+        scene.add_light("dome", (1.0,) * 3)
+        assert seen(scene, 16, max_transparent_bounces=straight)[0] == pytest.approx(math.exp(-0.05 * 0.5 * 6), rel=1e-4)
+
+
+def test_shadow_rays_pass_the_bounds_of_fog():
+    """A lamp behind six boxes, with no transparent bounce allowed: illuminance by Beer and Lambert."""
+    scene = gonio.Scene()
+    for number in range(6):
+        box(scene, (-1.0, -1.0, float(number)), (1.0, 1.0, number + 0.5), absorption=0.05)
+    scene.add_light("point", (100.0,) * 3, transform=[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 9], [0, 0, 0, 1]])
+    scene.add_meter((0.0, 0.0, -1.0), normal=(0.0, 0.0, 1.0))
+    scene.set(samples=16, max_transparent_bounces=0)
+    found = gonio.measure(scene, samples=16).meters[0].value
+    assert found == pytest.approx(100.0 / 10.0**2 * math.exp(-0.05 * 0.5 * 6), rel=1e-3)
+
+
+def test_a_medium_whose_mesh_is_open_sends_nothing_without_end():
+    scene = looking((0.0, 0.0, 3.0), (0.0, 0.0, 0.0))
+    shining = {"origin": "open", "closures": [closure("Transparent", base_color=1.0)], "medium": medium(emission=0.4)}
+    mesh = scene.add_mesh(np.array([[-9, -9, 0], [9, -9, 0], [9, 9, 0], [-9, 9, 0]], "f4"), np.array([[0, 1, 2], [0, 2, 3]], "i4"))
+    scene.add_instance(mesh, [scene.put_material(shining)])
+    assert seen(scene, 16)[0] == pytest.approx(0.0, abs=1e-6)

@@ -68,7 +68,8 @@ pub(super) fn compile(
             };
             let mut surface = surface(material, closure, (measured, metals), &graph, diagnostics);
             surface.surface.spectrum = spectrum;
-            table.surfaces.push(SurfaceMaterial { interior, solid_medium, ..surface });
+            let bounds_alone = interior.is_some() && is_nothing(material, closure);
+            table.surfaces.push(SurfaceMaterial { interior, solid_medium, bounds_alone, ..surface });
         }
         if !material.shader_outputs.is_empty() {
             table.shader_outputs.push(shader_outputs(material, &graph, first as usize));
@@ -216,6 +217,7 @@ fn surface(
         interior: None,
         solid_medium: None,
         anisotropic: lobes.anisotropic,
+        bounds_alone: false,
         holdout: closure.model == Model::Holdout,
         pass_index: material.pass_index,
         matte_id: scene::matte_id(&material.origin.name),
@@ -224,6 +226,13 @@ fn surface(
         exit,
         opacity_threshold: closure.opacity_threshold,
     }
+}
+
+/// Whether a closure is all of its material, and lets everything pass as it is.
+fn is_nothing(material: &scene::Material, closure: &Closure) -> bool {
+    let is_white = |input: Option<Input>| matches!(input, Some(Input::Constant([r, g, b, _])) if [r, g, b] == [1.0; 3]);
+    let is_whole = matches!(closure.weight, Input::Constant([r, g, b, _]) if [r, g, b] == [1.0; 3]);
+    material.closures.len() == 1 && closure.model == Model::Transparent && is_whole && is_white(closure.input("base_color"))
 }
 
 /// What a surface emits for light sampling: the same everywhere, or what a program computes of the parameters that vary, given as light sampling

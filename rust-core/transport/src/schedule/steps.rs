@@ -120,7 +120,8 @@ fn shade_hits<L: Lanes, I: Integrator>(
     }
     let start = statistics.spent(Stage::Graph, start);
     let (sent, going_on) = (queues.shadows.count, queues.next.count);
-    let chunk = ChunkContext { l, tables, transport, sample, shader, count, order, paths, hits, columns };
+    let straight = material.way_straight();
+    let chunk = ChunkContext { l, tables, transport, sample, shader, count, order, paths, hits, columns, straight };
     shade_chunk(integrator, &chunk, material, queues, deposits);
     statistics.spent(Stage::Shade, start);
     let run = count.next_multiple_of(L::COUNT);

@@ -8,6 +8,7 @@ use crate::tables::Tables;
 use crate::tables::material::ChunkOutputs;
 use crate::tables::transport::Transport;
 use gonio_accel::Hits;
+use gonio_simd::{Lanes, M, U};
 
 /// Surface points of a chunk, and what programs compute there.
 #[derive(Debug, Default)]
@@ -47,6 +48,16 @@ pub(crate) struct ChunkContext<'a, L> {
     pub(crate) hits: &'a Hits,
     /// By hit of the chunk.
     pub(crate) columns: &'a ChunkColumns,
+    /// What a way straight through these surfaces counts: nothing where they only bound what fills their mesh.
+    pub(crate) straight: u32,
+}
+
+impl<L: Lanes> ChunkContext<'_, L> {
+    /// Whether paths may go straight through one more of these surfaces.
+    #[inline(always)]
+    pub(crate) fn allows_straight(&self, counts: U<L>) -> M<L> {
+        if self.straight == 0 { self.l.m(true) } else { self.transport.limits.allow_straight(counts) }
+    }
 }
 
 const _: () = assert!(CHUNK.is_multiple_of(gonio_simd::PADDING));

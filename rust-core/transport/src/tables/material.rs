@@ -3,6 +3,7 @@
 use crate::graph::{OutputColumns, Program};
 use crate::tables::media::MediumTable;
 use crate::tables::shader_passes::ShaderOutputs;
+use crate::words::counts;
 use gonio_bsdf::Surface;
 use gonio_bsdf::{ParameterValues, parameter::COUNT};
 use gonio_simd::{F, Lanes, Rgb, Spectrum, WavelengthColumn, Wavelengths};
@@ -36,6 +37,8 @@ pub struct SurfaceMaterial {
     pub solid_medium: Option<u32>,
     /// Whether the shading frame's tangent matters.
     pub anisotropic: bool,
+    /// Whether it does nothing but bound what fills the mesh.
+    pub bounds_alone: bool,
     /// Whether it cuts a hole into the coverage.
     pub holdout: bool,
     /// What the material index pass shows.
@@ -45,6 +48,10 @@ pub struct SurfaceMaterial {
 }
 
 impl SurfaceMaterial {
+    /// What a way straight through it counts.
+    pub(crate) fn way_straight(&self) -> u32 {
+        if self.bounds_alone { 0 } else { counts::STRAIGHT }
+    }
     /// What it emits for light sampling where that is the same everywhere, in every lane.
     #[inline(always)]
     pub(crate) fn even_radiance<L: Lanes>(&self, l: L, wavelengths: Wavelengths<'_, L>) -> Spectrum<L> {
@@ -169,6 +176,10 @@ impl MaterialTable {
     /// Whether light comes through a material of the geometry, bent or scattered.
     pub fn lets_light_through(&self, number: u32) -> bool {
         self.closures(number).iter().any(|closure| closure.surface.lets_light_through())
+    }
+    /// Whether a material of the geometry does nothing but bound what fills its mesh.
+    pub(crate) fn bounds_alone(&self, number: u32) -> bool {
+        matches!(self.shading(number), Shading::Surface(surface) if self.surfaces[surface as usize].bounds_alone)
     }
     /// Whether light sampling runs programs to know what a material of the geometry emits.
     pub fn emits_by_program(&self, number: u32) -> bool {

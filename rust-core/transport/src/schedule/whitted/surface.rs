@@ -90,7 +90,7 @@ impl Integrator for WhittedIntegrator<'_> {
                 branch(chunk, point, &Branch { way, wi, throughput, share: l.f(0.0) }, going_on, branches);
             }
         }
-        branch(chunk, point, &straight, transport.limits.allow_straight(point.core.counts), branches);
+        branch(chunk, point, &straight, chunk.allows_straight(point.core.counts), branches);
     }
 
     #[inline(always)]
@@ -155,7 +155,7 @@ fn branch<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, ray: &Branch
     let counted = match way {
         Way::Mirrored | Way::Coat => counts::GLOSSY,
         Way::Refracted => counts::TRANSMISSION,
-        Way::Straight => counts::STRAIGHT,
+        Way::Straight => chunk.straight,
     };
     let (ray, width, passed) = if way == Way::Straight {
         let on = straight_on(chunk, point);

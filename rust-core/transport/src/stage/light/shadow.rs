@@ -93,12 +93,13 @@ fn add_arrived<L: Lanes>(l: L, transport: &Transport, shadows: &ShadowRays, bloc
 }
 
 /// Blocks rays that pass more surfaces than their paths may still go straight through.
-fn block_deep(limits: &Limits, trace: &mut ShadowTrace, shadows: &ShadowRays) {
+fn block_deep(tables: &Tables, limits: &Limits, trace: &mut ShadowTrace, shadows: &ShadowRays) {
     let ShadowTrace { blocked, passed, crossed, .. } = trace;
     crossed.clear();
     crossed.resize(shadows.count, 0);
     for hit in &*passed {
-        crossed[hit.ray as usize] += 1;
+        let counts = !tables.materials.bounds_alone(tables.geometry.material(hit.instance, hit.primitive));
+        crossed[hit.ray as usize] += u32::from(counts);
     }
     for (ray, crossed) in crossed.iter().enumerate() {
         if *crossed > limits.straight_left(shadows.straight[ray]) {
@@ -112,7 +113,7 @@ fn block_deep(limits: &Limits, trace: &mut ShadowTrace, shadows: &ShadowRays) {
 fn dim_by_surfaces(tables: &Tables, transport: &Transport, trace: &mut ShadowTrace, shadows: &mut ShadowRays, columns: &mut ChunkColumns) {
     trace.depth.clear();
     if tables.any_transparent && transport.limits.counts_straight() {
-        block_deep(&transport.limits, trace, shadows);
+        block_deep(tables, &transport.limits, trace, shadows);
     }
     let mut passed = std::mem::take(&mut trace.passed);
     let material_of = |hit: &TransparentHit| tables.geometry.material(hit.instance, hit.primitive);

@@ -8,7 +8,7 @@ use crate::accumulate::expression_sums::with_state;
 use crate::accumulate::guides::is_specular_path;
 use crate::media::track::Track;
 use crate::words::{code, flag};
-use gonio_simd::{F, Lanes, M, Spectrum};
+use gonio_simd::{F, Lanes, M, Spectrum, U};
 
 /// Optical depths below this are as good as none.
 const THIN: f32 = 1e-3;
@@ -19,12 +19,18 @@ pub(super) fn add<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>, chosen: M
     let l = way.pdf.lanes();
     let mut emission = Spectrum::zero(l);
     for row in way.core.media.rows().into_iter().flatten() {
-        emission += context.tables.materials.media.emission(l, row);
+        emission += context.tables.materials.media.emission(l, row).keep_if(ends(context, way, row));
     }
     let lit = chosen & emission.is_lit();
     if lit.any() {
         deposit(context, (way, middle(way)), emission * seen_length(way) * way.core.throughput, lit, deposits);
     }
+}
+
+/// Ways on which a medium ends, and those through what fills all of space: where a path has lost its way out of a mesh, nothing shines without end.
+#[inline(always)]
+fn ends<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>, row: U<L>) -> M<L> {
+    way.met | row.eq(context.tables.materials.media.everywhere)
 }
 
 /// What a metre of all media sends at a place of ways through some that vary, dimmed by the even ones before it, where a flight through these comes there.
@@ -34,7 +40,7 @@ pub(super) fn sent<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>, track: &
     let media = &context.tables.materials.media;
     let mut emission = track.emission(place);
     for row in way.core.media.rows().into_iter().flatten() {
-        emission += media.emission(l, row).keep_if(media.field(l, row).eq(0));
+        emission += media.emission(l, row).keep_if(media.field(l, row).eq(0) & ends(context, way, row));
     }
     emission * left_where_flights_pass(way, (place - way.from).max(0.0))
 }

@@ -119,7 +119,9 @@ fn shine_apart<L: Lanes>(
         let material = &tables.materials.surfaces[mix.first as usize + closure];
         if material.emits_apart {
             kernels::run_program(l, tables, &material.program, hits, &source, columns);
-            let chunk = ChunkContext { l, tables, transport, sample, shader: None, count, order, paths, hits, columns: &*columns };
+            let straight = material.way_straight();
+            let chunk =
+                ChunkContext { l, tables, transport, sample, shader: None, count, order, paths, hits, columns: &*columns, straight };
             add_emission_apart(&chunk, material, weights.of(closure), deposits);
         }
     }

@@ -33,7 +33,7 @@ pub(crate) fn without_cut_outs<L: Lanes>(
         return point.alive;
     }
     let passed = point.alive & u.ge(threshold(lobes.opacity(), material.opacity_threshold));
-    pass_straight(chunk, point, passed & chunk.transport.limits.allow_straight(point.core.counts), next);
+    pass_straight(chunk, point, passed & chunk.allows_straight(point.core.counts), next);
     point.alive.and_not(passed)
 }
 
@@ -44,7 +44,7 @@ fn pass_straight<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, chose
         return;
     }
     let before = chunk.paths.previous(chunk.l, point.path);
-    next.append(&point.straight_on(&straight_on(chunk, point), before), chosen);
+    next.append(&point.straight_on(&straight_on(chunk, point), before, chunk.straight), chosen);
 }
 
 /// Starts subsurface random walks.
@@ -182,7 +182,7 @@ pub(crate) fn send_on<L: Lanes>(
         consistent = l.m(true);
     }
     let throughput = point.core.throughput * factor;
-    let passes = sample.straight & chunk.transport.limits.allow_straight(point.core.counts);
+    let passes = sample.straight & chunk.allows_straight(point.core.counts);
     let mut alive = ((going_on | (ending & sample.straight)) & consistent).and_not(sample.straight.and_not(passes))
         & sample.pdf.gt(0.0)
         & throughput.is_lit()
@@ -222,7 +222,7 @@ pub(crate) fn send_on<L: Lanes>(
         width,
         spread: point.core.spread + sample.roughness * CONE_PER_ROUGHNESS,
         flags: straight.select(point.core.flags | non_specular, scattered),
-        counts: point.core.counts + straight.select(l.u(counts::STRAIGHT), counted),
+        counts: point.core.counts + straight.select(l.u(chunk.straight), counted),
         media: point.media_towards(across, straight),
         ..point.core
     };

@@ -18,7 +18,7 @@ use crate::state::times::SlotTimes;
 use crate::state::vertex::{CONE_PER_ROUGHNESS, Interaction, Vertex};
 use crate::tables::Tables;
 use crate::tables::transport::Transport;
-use crate::words::flag;
+use crate::words::{counts, flag};
 use gonio_accel::{Hits, NONE};
 use gonio_bsdf::subsurface::{Flight, LEAST_THROUGHPUT, MAXIMUM_STEPS, REDUCED_FROM};
 use gonio_camera::sampler::dimension;
@@ -172,7 +172,7 @@ fn exit_chunk<L: Lanes>(
     deposits: &mut Deposits,
 ) {
     let WalkContext { tables, transport, sample, paths, lit, .. } = *context;
-    let chunk = ChunkContext { l, tables, transport, sample, shader: None, count, order, paths, hits, columns };
+    let chunk = ChunkContext { l, tables, transport, sample, shader: None, count, order, paths, hits, columns, straight: counts::STRAIGHT };
     let base = sample.dimension(dimension::EXIT);
     for at in (0..count).step_by(L::COUNT) {
         let point = exit_point(&chunk, at, &queues.walks);
