@@ -17,13 +17,13 @@ from blender_pixels import pixels  # noqa: E402
 SEEDS = (1, 2)
 
 
-def render(theme: str, scene: str, engine: str, samples: int, tmp_path: Path) -> None:
+def render(theme: str, scene: str, engine: str, samples: int, told: str, tmp_path: Path) -> None:
     """Writes SCENE-ENGINE.npz: `first` and `second`, renderings with different seeds, and the `seconds` that both took together.
 
-    They are radiance (height, width, 3) in W/(m² sr), the top row first.
+    They are radiance (height, width, 3) in W/(m² sr), the top row first. Gonio may tell lines of the severities in `told`.
     """
     build(theme, scene, samples)
-    write_pair(engine, tmp_path / f"{scene}-{engine}")
+    write_pair(engine, tmp_path / f"{scene}-{engine}", tuple(told.split()))
 
 
 def write_pair(engine: str, path: Path, told: tuple[str, ...] = ()) -> None:

@@ -7,12 +7,13 @@ USUAL_SAMPLES = 128
 
 @dataclass(frozen=True)
 class Scene:
-    """A function of `scenes_<theme>.py`, and samples a pixel in each of two renderings."""
+    """A function of `scenes_<theme>.py`, samples a pixel in each of two renderings, and the severity of lines that Gonio may tell."""
 
     theme: str
     name: str
     cycles: int = USUAL_SAMPLES
     gonio: int = USUAL_SAMPLES
+    told: str = ""
 
 
 SCENES = [
@@ -80,4 +81,37 @@ SCENES = [
     Scene("bake", "bake_occlusion", 64, 64),
     Scene("bake", "bake_normals", 8, 8),
     Scene("bake", "bake_denoised", 64, 64),
+    Scene("media", "fog_box_with_lamp", 256, 256),
+    Scene("media", "overlapping_boxes"),
+    Scene("media", "overlapping_colours"),
+    Scene("media", "camera_inside", 192, 192),
+    Scene("media", "world_fog", 384, 384),
+    Scene("media", "world_fog_and_sun", 384, 384, "WARNING"),
+    Scene("media", "fog_in_sun"),
+    Scene("media", "glasses", 192, 192),
+    Scene("media", "fog_instances"),
+    Scene("media_nodes", "absorption", 64, 64),
+    Scene("media_nodes", "scatter_henyey_greenstein"),
+    Scene("media_nodes", "scatter_rayleigh"),
+    Scene("media_nodes", "scatter_draine"),
+    Scene("media_nodes", "scatter_fournier_forand"),
+    Scene("media_nodes", "scatter_mie"),
+    Scene("media_nodes", "coefficients"),
+    Scene("media_nodes", "principled_volume"),
+    Scene("media_nodes", "emission", 64, 64),
+    Scene("media_nodes", "added"),
+    Scene("media_nodes", "mixed"),
+    Scene("media_nodes", "varied"),
+    Scene("media_grids", "thin_smoke"),
+    Scene("media_grids", "thin_smoke_by_steps"),
+    Scene("media_grids", "dense_cloud"),
+    Scene("media_grids", "dense_cloud_by_steps"),
+    Scene("media_grids", "sparse_fire"),
+    Scene("media_grids", "sparse_fire_by_steps"),
+    Scene("media_grids", "volume_instances"),
+    Scene("media_grids", "volume_instances_by_steps"),
+    Scene("media_grids", "domain_smoke"),
+    Scene("media_grids", "domain_smoke_by_steps"),
+    Scene("media_grids", "attributes"),
+    Scene("media_grids", "attributes_by_steps"),
 ]

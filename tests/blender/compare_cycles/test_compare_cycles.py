@@ -16,7 +16,7 @@ pytestmark = [pytest.mark.validate, pytest.mark.timeout(2 * blender.SECONDS)]
 def rendered(scene: Scene, engine: str, folder: Path) -> report.compare.Measured:
     """A scene in one engine, in a Blender of its own."""
     samples = scene.gonio if engine == "GONIO" else scene.cycles
-    blender.call("render", folder, theme=scene.theme, scene=scene.name, engine=engine, samples=samples)
+    blender.call("render", folder, theme=scene.theme, scene=scene.name, engine=engine, samples=samples, told=scene.told)
     return report.measured(folder / f"{scene.name}-{engine}.npz", samples)
 
 
