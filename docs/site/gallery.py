@@ -87,7 +87,12 @@ PICTURES = (
     script("prism", "A prism", "Light with wavelengths: a slit of sunlight, and glass that parts its colours."),
     script("daylight_room", "Sun through a window", "September in Vienna. The script prints the room's daylight factors as well."),
     script("depth_of_field", "Depth of field", "Candles of 12 lm, glass, and a fast lens."),
-    script("beams_in_haze", "Beams in haze", "Five spots, and air that scatters: contrast falls to 5 % within thirty metres."),
+    script(
+        "beams_in_haze",
+        "Beams in haze",
+        "Five spots, and air that scatters: contrast falls to 5 % within thirty metres. The script also draws a plan of lux.",
+        "beams_in_haze_plan.png",
+    ),
     script("cloud", "A cloud", "An array of densities in the morning sun; light is scattered up to 64 times."),
     script("metals", "Metals by name", "Silver, aluminium, chromium, iron, titanium, brass, copper and gold, by measured indices."),
     script("car_paint", "Car paints", "Tables of measurements under a clear coat."),

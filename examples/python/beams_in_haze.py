@@ -1,4 +1,4 @@
-"""Beams of five spots in the haze of a small stage: `python beams_in_haze.py beams_in_haze.png`."""
+"""Beams of five spots in the haze of a small stage, and a lux plan: `python beams_in_haze.py beams_in_haze.png beams_in_haze_plan.png`."""
 
 import sys
 
@@ -35,8 +35,8 @@ def stage(scene: gonio.Scene) -> None:
     scene.add_instance(lathe(scene, [*vase, (0.13, 1.115), (0.08, 1.0), (0.0, 0.95)]), [glaze], transform=at(0, 0.48, -0.2))
 
 
-def main() -> None:
-    """Writes the picture."""
+def lit_stage() -> gonio.Scene:
+    """The stage, its spots, and haze."""
     scene = gonio.Scene()
     stage(scene)
     for place, target, colour in SPOTS:
@@ -44,11 +44,31 @@ def main() -> None:
         scene.add_light("sphere", colour, radius=0.02, candela=9000.0, spot=(18.0, 0.25), transform=towards, visible=False)
     # Contrast falls to 5 % within 30 m: haze that machines make for shows.
     scene.put_atmosphere(haze(30.0, anisotropy=0.6))
+    return scene
+
+
+def write_plan(path: str) -> None:
+    """Illuminance of a level plane 0.5 m above the floor, just above the steps, seen from above with the back wall on top."""
+    scene = lit_stage()
+    scene.add_grid(corner=(-4.0, 0.5, 3.0), edges=[(8.0, 0.0, 0.0), (0.0, 0.0, -5.0)], spacing=0.1, name="plan")
+    plan = gonio.measure(scene, samples=512).grids[0]
+    # Rows go from the front to the back; each point becomes 8 x 8 pixels.
+    lux = numpy.asarray(plan.values)[::-1]
+    shown = gonio.false_colour(numpy.kron(lux, numpy.ones((8, 8))), unit="lx", max=800.0, steps=8, contours=True)
+    shown.write(path)
+    print(f"plan 0.5 m above the floor: {plan.average.value:.0f} lx in the mean, {plan.max.value:.0f} lx at most")
+
+
+def main() -> None:
+    """Writes the picture and the plan."""
+    picture, plan = sys.argv[1:] if len(sys.argv) == 3 else ("beams_in_haze.png", "beams_in_haze_plan.png")
+    scene = lit_stage()
     scene.set(width=960, height=600, samples=40, max_bounces=6)
     scene.add_camera(gonio.look_at((0.0, 1.7, 4.8), (0.0, 1.95, -0.6)), fov=50)
-    film = finished(scene, sys.argv[1] if len(sys.argv) > 1 else "beams_in_haze.png", exposure=-0.7)
+    film = finished(scene, picture, exposure=-0.7)
     lux = numpy.asarray(film["illuminance"])
     print(f"illuminance of what is seen, through the haze: {lux.mean():.0f} lx in the mean")
+    write_plan(plan)
 
 
 if __name__ == "__main__":
