@@ -64,6 +64,9 @@ OBJECTS = {
         "full precision, trilinear and without steps; they stand still at the frame",
     ),
     "curve types": _untold("Hair curves of the types Poly, Bézier and NURBS", "drawn through their points, as in Cycles"),
+    "within a lamp": _untold(
+        "Light of lamps with *Soft Falloff* off within their own ball", "none: they shine outwards alone; Cycles lights what is in there"
+    ),
     "catcher's lamp": _quietly("Lamps whose light shadow catchers leave out of account", "it counts as all others"),
     "adaptive subdivision": _untold(
         "Dicing camera and offscreen scale of adaptive subdivision", "the camera that renders; four times the length beside its picture"
