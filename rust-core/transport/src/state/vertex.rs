@@ -10,7 +10,7 @@ use crate::state::rays::RayLanes;
 use crate::tables::Tables;
 use crate::tables::guiding::Guided;
 use crate::tables::transport::Transport;
-use crate::words::{counts, flag};
+use crate::words::flag;
 use gonio_bsdf::Lobes;
 use gonio_light::{LightSample, LightSampleContext};
 use gonio_simd::{F, Frame, Lanes, M, U, Vec3};
