@@ -3,6 +3,7 @@
 //! A prim is read into a [`Volume`] without its files (`read`). Where it is placed, its material says which fields count (`fill`), and their grids
 //! are read, each once (`grid`).
 
+mod curves;
 mod fill;
 mod grid;
 mod placed;

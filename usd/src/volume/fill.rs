@@ -1,5 +1,6 @@
 //! What fills a volume: the coefficients of its material, and the grids of the fields that they follow.
 
+use super::curves::{Curve, STEPS};
 use super::grid::Grid;
 use super::{Field, Volume};
 use crate::context::Context;
@@ -8,8 +9,6 @@ use gonio::scene::{Field as SceneField, Input, Lattice, Medium, Origin, Transfor
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// Factors of a glow that follows its heat by a curve.
-const GLOW: usize = 256;
 /// What a coefficient may be off a proportion, of its greatest.
 const TOLERANCE: f32 = 1e-4;
 /// How far, in voxels, the second of two boxes in one another reaches beyond the first: faces in one place would be taken for one.
@@ -38,16 +37,15 @@ pub(crate) fn fill(
     shading: &VolumeShading,
     primvars: Primvars<'_>,
 ) -> Vec<Filling> {
-    let mut filler = Filler { context, origin, volume, shading, primvars, unproportional: BTreeSet::new() };
+    let mut filler = Filler { context, origin, volume, shading, primvars };
     filler.tell_missing();
     let Some([absorption, scattering]) = filler.coefficients() else { return Vec::new() };
-    filler.tell_curves();
     let emission = filler.emission();
     let mut parts = vec![scattering];
     match &mut parts[0] {
         // One of them is nothing, or both follow the same.
         part if part.is_clear() => *part = absorption,
-        part if absorption.is_clear() || part.follows == absorption.follows => part.medium.absorption = absorption.medium.absorption,
+        part if absorption.is_clear() || part.follows == absorption.follows => part.absorb(absorption),
         _ => parts.push(absorption),
     }
     if let Some(emission) = emission.filter(|emission| !emission.is_clear()) {
@@ -90,11 +88,30 @@ struct Part {
     /// What the emission follows.
     heat: Option<Found>,
     glow: Vec<[f32; 3]>,
+    /// Absorption and scattering at each step of the field, where one follows it by a curve; else empty.
+    steps: [Vec<[f32; 3]>; 2],
 }
 
 impl Part {
+    /// Takes in the absorption of a part that follows the same.
+    fn absorb(&mut self, other: Self) {
+        self.medium.absorption = other.medium.absorption;
+        let [absorption, _] = other.steps;
+        self.steps[0] = absorption;
+    }
+
+    /// What absorption and scattering are by the field, where one of them follows it by a curve.
+    fn curve(&self) -> Option<Curve> {
+        let found = self.follows.as_ref().filter(|_| self.steps.iter().any(|steps| !steps.is_empty()))?;
+        let most = most(&found.grid.lattice);
+        let straight = |value: [f32; 3]| (0..STEPS).map(|step| value.map(|x| x * most * step as f32 / (STEPS - 1) as f32)).collect();
+        let of = |steps: &Vec<[f32; 3]>, value: [f32; 3]| if steps.is_empty() { straight(value) } else { steps.clone() };
+        let [absorption, scattering] = &self.steps;
+        Some(Curve::new(&of(absorption, self.medium.absorption), &of(scattering, self.medium.scattering), most))
+    }
+
     fn is_clear(&self) -> bool {
-        self.medium.is_clear()
+        self.medium.is_clear() && self.steps.iter().flatten().flatten().all(|x| *x == 0.0)
     }
 
     /// Whether an emission can be in the same box: by the same voxels, or both even.
@@ -120,9 +137,10 @@ struct Filler<'f, 'a, 'py> {
     volume: &'f Volume,
     shading: &'f VolumeShading,
     primvars: Primvars<'f>,
-    /// Names of fields that coefficients follow by a curve.
-    unproportional: BTreeSet<String>,
 }
+
+/// A coefficient a metre, the field that it follows, and what it is at each step of it where that is no proportion.
+type Coefficient = ([f32; 3], Option<Found>, Vec<[f32; 3]>);
 
 impl Filler<'_, '_, '_> {
     /// Absorption and scattering; `None` where the volume is left out, which is told.
@@ -130,27 +148,30 @@ impl Filler<'_, '_, '_> {
         let shading = self.shading;
         let absorption = self.coefficient(shading.absorption)?;
         let scattering = self.coefficient(shading.scattering)?;
-        let part = |(value, follows), medium: fn([f32; 3]) -> Medium| Part { medium: medium(value), follows, ..Part::default() };
-        let mut scattering = part(scattering, |scattering| Medium { scattering, ..Medium::default() });
-        let absorption = part(absorption, |absorption| Medium { absorption, ..Medium::default() });
+        let (value, follows, steps) = scattering;
+        let medium = Medium { scattering: value, ..Medium::default() };
+        let mut scattering = Part { medium, follows, steps: [Vec::new(), steps], ..Part::default() };
+        let (value, follows, steps) = absorption;
+        let medium = Medium { absorption: value, ..Medium::default() };
+        let absorption = Part { medium, follows, steps: [steps, Vec::new()], ..Part::default() };
         scattering.medium.anisotropy = shading.anisotropy;
         Some([absorption, scattering])
     }
 
-    /// A coefficient a metre, and the field that it is proportional to.
-    fn coefficient(&mut self, input: Input) -> Option<([f32; 3], Option<Found>)> {
+    /// What a coefficient is; `None` where the volume is left out, which is told.
+    fn coefficient(&mut self, input: Input) -> Option<Coefficient> {
         let fields = self.fields_of(input);
         let at = |filler: &Self, x: f32| filler.value(input, Some(x));
-        let (value, found) = match fields.as_slice() {
-            [] => (at(self, 0.0), None),
+        let (value, found, steps) = match fields.as_slice() {
+            [] => (at(self, 0.0), None, Vec::new()),
             [field] => {
                 let found = self.found(field)?;
                 let most = most(&found.grid.lattice);
                 let value = at(self, most);
-                if value.is_some_and(|value| !self.is_proportional(input, value, most)) {
-                    self.unproportional.insert(field.name.clone());
-                }
-                (value.map(|value| value.map(|x| x / most)), Some(found))
+                let is_curved = value.is_some_and(|value| !self.is_proportional(input, value, most));
+                let steps = if is_curved { self.steps(input, most).unwrap_or_default() } else { Vec::new() };
+                let steps: Vec<[f32; 3]> = steps.into_iter().map(|value| self.a_metre(value)).collect();
+                (value.map(|value| value.map(|x| x / most)), Some(found), steps)
             }
             _ => {
                 let names = names(&fields);
@@ -159,7 +180,7 @@ impl Filler<'_, '_, '_> {
             }
         };
         match value {
-            Some(value) => Some((self.a_metre(value), found)),
+            Some(value) => Some((self.a_metre(value), found, steps)),
             None => {
                 self.context.unsupported("a volume that varies by more than its fields", self.origin);
                 None
@@ -167,12 +188,10 @@ impl Filler<'_, '_, '_> {
         }
     }
 
-    /// Says which fields coefficients follow by a curve.
-    fn tell_curves(&mut self) {
-        for name in &self.unproportional {
-            let message = || format!("its coefficients do not follow the field '{name}' in proportion; those of its greatest value do");
-            self.context.once("volume curve", &format!("{} {name}", self.shading.path), self.origin, message);
-        }
+    /// An input evenly from no value of its field to the greatest.
+    fn steps(&self, input: Input, most: f32) -> Option<Vec<[f32; 3]>> {
+        let step = most / (STEPS - 1) as f32;
+        (0..STEPS).map(|place| self.value(input, Some(place as f32 * step))).collect()
     }
 
     /// What the volume sends; `None` where that is left out, which is told.
@@ -198,8 +217,7 @@ impl Filler<'_, '_, '_> {
         if self.is_proportional(input, value, most) {
             part.medium.emission = self.a_metre(value.map(|x| x / most));
         } else {
-            let step = most / (GLOW - 1) as f32;
-            let values: Option<Vec<[f32; 3]>> = (0..GLOW).map(|place| self.value(input, Some(place as f32 * step))).collect();
+            let values = self.steps(input, most);
             part.glow = self.or_told(values)?;
             part.medium.emission = self.a_metre([1.0; 3]);
         }
@@ -268,7 +286,8 @@ impl Filler<'_, '_, '_> {
 
     /// A part as a box with its field.
     fn filling(&mut self, part: Part) -> Option<Filling> {
-        let Part { medium, follows, heat, glow } = part;
+        let curve = part.curve();
+        let Part { mut medium, follows, heat, glow, .. } = part;
         let is_even = follows.is_none() && heat.is_none();
         let found = match follows.as_ref().or(heat.as_ref()) {
             Some(found) => found.clone(),
@@ -284,6 +303,11 @@ impl Filler<'_, '_, '_> {
             glow,
             ..SceneField::default()
         };
+        if let Some(curve) = curve {
+            self.tell_beginning(&curve, follows.as_ref());
+            let curved = curve.applied(&field.density, &medium);
+            (medium, field.density, field.taken) = (curved.medium, curved.density, curved.taken);
+        }
         if is_even {
             let message = || format!("the material <{}> follows no field; the box about the grid is filled evenly", self.shading.path);
             self.context.once("even volume", &self.shading.path, self.origin, message);
@@ -293,6 +317,14 @@ impl Filler<'_, '_, '_> {
             high.iter_mut().for_each(|x| *x -= 0.5);
         }
         Some(Filling { medium, field, is_even })
+    }
+
+    /// Says where coefficients that are not 0 where their field is come to an end.
+    fn tell_beginning(&mut self, curve: &Curve, follows: Option<&Found>) {
+        let Some(found) = follows.filter(|_| curve.starts_above_nothing()) else { return };
+        let message =
+            || format!("its coefficients are above 0 where the field '{}' is 0; they end with the grid's blocks of voxels", found.name);
+        self.context.once("volume curve", &format!("{} {}", self.shading.path, found.name), self.origin, message);
     }
 
     /// The grid that says where an even volume is.
