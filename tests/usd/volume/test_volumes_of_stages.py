@@ -322,6 +322,47 @@ def test_what_is_no_field_is_told(tmp_path):
     assert any("</Nowhere>, which does not exist" in message for message in told), told
 
 
+SQUARED = shader("P", "ND_power_float", in1="D", in2=("float", "2"))
+
+
+def test_coefficients_follow_a_field_by_a_curve(tmp_path):
+    """What absorbs by the square of the density: one lattice, and coefficients of its densest place."""
+    curve = material(shader("S", "ND_absorption_vdf", absorption="A"), times("A", "P", "(1, 2, 3)"), SQUARED, field("D", "density"))
+    scene, told = load(tmp_path, curve + volume())
+    (described,), found = scene["fields"], medium(scene)
+    assert not told and not described.get("taken") and found["scattering"] == [0.0] * 3
+    for place in ((1, 1, 1), (5, 4, 3), (2, 0, 3)):
+        absorption = np.array(found["absorption"]) * at_voxel(described, place)
+        assert absorption == pytest.approx(10 * np.array([1, 2, 3]) * CLOUD[place] ** 2, rel=1e-3, abs=1e-3)
+
+
+def test_colours_vary_where_curves_differ(tmp_path):
+    """Absorption by the square of the density, scattering by itself: colours of extinction and scattering by voxel."""
+    curve = material(
+        shader("S", "ND_volume", vdf="V"), shader("V", "ND_anisotropic_vdf", absorption="A", scattering="B"),
+        times("A", "P", "(1, 2, 3)"), SQUARED, times("B", "D", "(4, 0, 2)"), field("D", "density"),
+    )  # fmt: skip
+    scene, told = load(tmp_path, curve + volume())
+    (described,), found = scene["fields"], medium(scene)
+    assert not told and found["absorption"] == [0.0] * 3 and len(set(found["scattering"])) == 1
+    for place in ((1, 1, 1), (5, 4, 3), (2, 0, 3)):
+        value = CLOUD[place]
+        scattering = 10 * np.array([4, 0, 2]) * value
+        extinction = scattering + 10 * np.array([1, 2, 3]) * value**2
+        numbers = [found["scattering"][0] * at_voxel({"part": lattice}, place, "part") for lattice in described["taken"]]
+        assert numbers == pytest.approx([*extinction, *scattering], rel=1e-3, abs=1e-3)
+        assert found["scattering"][0] * at_voxel(described, place) == pytest.approx(max(extinction), rel=1e-3, abs=1e-3)
+
+
+def test_coefficients_that_begin_above_nothing_are_told(tmp_path):
+    less = shader("P", "ND_subtract_float", in1=("float", "2"), in2="D")
+    curve = material(shader("S", "ND_absorption_vdf", absorption="A"), times("A", "P", "(1, 1, 1)"), less, field("D", "density"))
+    scene, told = load(tmp_path, curve + volume())
+    assert any("above 0 where the field 'density' is 0" in message for message in told), told
+    value = medium(scene)["absorption"][0] * at_voxel(scene["fields"][0], (1, 1, 1))
+    assert value == pytest.approx(10 * max(2.0 - CLOUD[1, 1, 1], 0.0), rel=1e-3)
+
+
 def test_what_no_field_can_do_is_told(tmp_path):
     several = material(
         shader("S", "ND_absorption_vdf", absorption="A"), times("A", "B", "(1, 1, 1)"), shader("B", "ND_multiply_float", in1="D", in2="H"),
@@ -330,11 +371,6 @@ def test_what_no_field_can_do_is_told(tmp_path):
     scene, told = load(tmp_path, several + volume() + 'def Sphere "Ball" {}\n')
     assert [instances["origin"]["name"] for instances in scene["instances"]] == ["/Ball"]
     assert any("several fields at once (density, heat)" in message for message in told), told
-    curve = material(shader("S", "ND_absorption_vdf", absorption="A"), times("A", "B", "(1, 1, 1)"),
-                     shader("B", "ND_power_float", in1="D", in2=("float", "2")), field("D", "density"))  # fmt: skip
-    scene, told = load(tmp_path, curve + volume())
-    assert medium(scene)["absorption"] == pytest.approx([10 * float(CLOUD.max())] * 3, rel=1e-4)
-    assert any("do not follow the field 'density' in proportion" in message for message in told), told
     _, told = load(tmp_path, material(shader("S", "ND_absorption_vdf", absorption="A"), times("A", "D", "(1, 1, 1)"), field("D", "wool")) + volume())
     assert any("asks for 'wool', which is no field of the volume" in message for message in told), told
     # A mesh has no fields.
