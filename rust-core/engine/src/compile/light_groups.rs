@@ -1,9 +1,10 @@
 //! Light groups: names in the scene as numbers in the tables, and those that a view shows.
 
 use crate::{
+    error::Diagnostic,
     geometry::{GeometryTable, NONE},
     scene::{Aov, OTHER_LIGHTS, Scene, Settings},
-    transport::{GroupPasses, LightGroups, UNSEEN},
+    transport::{GroupPasses, LightGroups, MaterialTable, UNSEEN},
 };
 
 /// The groups met so far.
@@ -40,6 +41,33 @@ impl GroupNames {
         }
         LightGroups { names: self.names, of_light, of_set }
     }
+}
+
+/// Tells media which sets they are of; gives a note of those that sets of several groups share, whose light is in none.
+pub(super) fn own_media(scene: &Scene, materials: &mut MaterialTable) -> Option<Diagnostic> {
+    let none = scene.instances.len() as u32;
+    let mut owners: Vec<Option<u32>> = vec![None; materials.media.len()];
+    let mut shared = None;
+    for (number, set) in scene.instances.iter().enumerate() {
+        let numbers =
+            set.materials.iter().filter_map(|material| materials.numbers.get(material.index()).map(|_| materials.number(material.index())));
+        for row in numbers.flat_map(|number| materials.media_of(number)).collect::<Vec<_>>() {
+            let owner = &mut owners[row as usize - 1];
+            match *owner {
+                None => *owner = Some(number as u32),
+                Some(first) if first != none && scene.instances[first as usize].light_group != set.light_group => {
+                    *owner = Some(none);
+                    shared.get_or_insert(&set.origin);
+                }
+                Some(_) => {}
+            }
+        }
+    }
+    let owners: Vec<u32> = owners.into_iter().map(|owner| owner.unwrap_or(none)).collect();
+    materials.media.set_owners(&owners);
+    let is_asked = scene.settings.aovs.iter().any(|aov| matches!(aov, Aov::LightGroup(_)));
+    let message = "what fills it is the same as in objects of another light group; what that sends counts as of no group";
+    shared.filter(|_| is_asked && materials.media.shines()).map(|origin| Diagnostic::warning(origin, message))
 }
 
 /// What a view shows of the groups; names that no light has show nothing.

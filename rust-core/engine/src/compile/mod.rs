@@ -118,6 +118,7 @@ fn laid_out(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicBool
     let casters = Casters::of(scene, &shapes.mesh_bounds, &looks.materials, shapes.origin);
     let (of_light, kept_lights) = (mem::take(&mut lights.of_light), mem::take(&mut lights.kept));
     let mut tables = tables(scene, bvh, &mut looks, &mut shapes, lights);
+    diagnostics.extend(light_groups::own_media(scene, &mut tables.materials));
     tables.wavelengths = looks.spectra.table(scene, &looks.metals);
     lamps_in_media::find(scene, &mut tables, &of_light, &mut diagnostics);
     if scene.settings.integrator == Integrator::Light {
@@ -193,7 +194,6 @@ fn report(scene: &Scene, materials: &MaterialTable, lights: &LightTable, diagnos
     whitted::report(scene, materials, lights, diagnostics);
     light_alone::report(scene, materials, lights, diagnostics);
     materials::media::report(&scene.atmosphere, lights, diagnostics);
-    materials::media::report_groups(scene, &materials.media, diagnostics);
 }
 
 /// What kernels read; takes it from what was compiled.

@@ -166,17 +166,17 @@ impl<'a, L: Lanes> Track<'a, L> {
         sums
     }
 
-    /// Radiance that a metre sends after so many metres.
+    /// Radiance that a metre of each medium sends after so many metres.
     #[inline(always)]
-    pub(crate) fn emission(&self, distance: F<L>) -> Spectrum<L> {
+    pub(crate) fn emission(&self, distance: F<L>) -> [Spectrum<L>; 4] {
         let l = distance.lanes();
-        let mut sum = Spectrum::zero(l);
-        for part in self.parts.iter().flatten() {
-            if part.emission.is_lit().any() {
-                sum += part.emission * part.rays.glow(l, self.table, distance);
-            }
-        }
-        sum
+        self.parts.map(
+            #[inline(always)]
+            |part| match part {
+                Some(part) if part.emission.is_lit().any() => part.emission * part.rays.glow(l, self.table, distance),
+                _ => Spectrum::zero(l),
+            },
+        )
     }
 
     /// Takes the chosen rays on until they scatter, or have gone so many metres from where the distances count.

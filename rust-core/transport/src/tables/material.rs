@@ -150,6 +150,10 @@ impl MaterialTable {
             }
         }
     }
+    /// The rows of the media that a material of the geometry fills meshes with.
+    pub fn media_of(&self, number: u32) -> impl Iterator<Item = u32> {
+        self.closures(number).iter().flat_map(|closure| [closure.interior, closure.solid_medium]).flatten()
+    }
     /// Whether what a material of the geometry covers is a solid, whose surface bends what goes in.
     pub fn is_solid(&self, number: u32) -> bool {
         self.closures(number).iter().any(|closure| closure.surface.is_solid())

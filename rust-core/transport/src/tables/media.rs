@@ -37,6 +37,8 @@ pub struct MediumTable {
     pub fields: FieldTable,
     /// The row that fills all of space, 0 for none.
     pub everywhere: u32,
+    /// By row, the instance set whose light group what it sends is in, the one behind all sets where it is in none.
+    set: Column<u32>,
     /// Whether any scatters, and whether any shines.
     scatters: bool,
     shines: bool,
@@ -85,6 +87,20 @@ impl MediumTable {
         media.fill_coefficients(&rows);
         media.fields.see(&seen);
         media
+    }
+    /// Says which instance set each row belongs to, from row 1 on.
+    pub fn set_owners(&mut self, owners: &[u32]) {
+        self.set = Column::new(owners.len() + 1 + PADDING);
+        self.set[1..=owners.len()].copy_from_slice(owners);
+    }
+    /// The instance sets of some rows.
+    #[inline(always)]
+    pub(crate) fn set<L: Lanes>(&self, l: L, row: U<L>) -> U<L> {
+        l.gather_integers(&self.set, row)
+    }
+    /// How many media there are.
+    pub fn len(&self) -> usize {
+        self.rows.len()
     }
     /// Whether there is no medium at all.
     pub fn is_empty(&self) -> bool {

@@ -4,7 +4,7 @@ use crate::{
     bsdf::phase,
     error::Diagnostic,
     light::LightTable,
-    scene::{Aov, Medium, Origin, Phase, Scene},
+    scene::{Medium, Origin, Phase},
     transport::{self, MediumTable},
 };
 
@@ -15,14 +15,6 @@ pub(in crate::compile) fn report(atmosphere: &Medium, lights: &LightTable, diagn
         let problem =
             "it fills all of space, so that nothing arrives of skies and suns, which are infinitely far; a box of the medium ends it";
         diagnostics.push(Diagnostic::warning(&Origin::new("atmosphere"), problem));
-    }
-}
-
-/// Tells that no light group has what media send.
-pub(in crate::compile) fn report_groups(scene: &Scene, media: &MediumTable, diagnostics: &mut Vec<Diagnostic>) {
-    if media.shines() && scene.settings.aovs.iter().any(|aov| matches!(aov, Aov::LightGroup(_))) {
-        let problem = "no light group has what volumes and haze send by themselves: the groups add up to the picture without it";
-        diagnostics.push(Diagnostic::warning(&Origin::new("light groups"), problem));
     }
 }
 

@@ -103,20 +103,23 @@ fn pass_shining<L: Lanes>(
         #[inline(always)]
         || {
             let l = way.pdf.lanes();
-            let (mut sent, mut middle, along) = (Spectrum::zero(l), l.f(0.0), *way);
+            let (mut sent, mut middle, along) = ([Spectrum::zero(l); 4], l.f(0.0), *way);
             let flight = flight::track(
                 context,
                 (way, track),
                 *even,
                 #[inline(always)]
                 |place, length, weight| {
-                    let light = shine::sent(context, &along, track, place) * weight * length;
-                    sent += light;
-                    middle += light.mean() * (place - along.from);
+                    for (sum, part) in sent.iter_mut().zip(shine::sent(context, &along, track, place)) {
+                        let light = part * weight * length;
+                        *sum += light;
+                        middle += light.mean() * (place - along.from);
+                    }
                 },
             );
-            let middle = middle / sent.mean().max(f32::MIN_POSITIVE);
-            shine::deposit(context, (way, middle), sent * way.core.throughput, way.scatters & track.varies, deposits);
+            let whole = sent.iter().fold(l.f(0.0), |sum, part| sum + part.mean());
+            let parts = sent.map(|part| part * way.core.throughput);
+            shine::deposit(context, (way, middle / whole.max(f32::MIN_POSITIVE)), parts, way.scatters & track.varies, deposits);
             flight
         },
     )

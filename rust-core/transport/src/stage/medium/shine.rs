@@ -17,13 +17,17 @@ const THIN: f32 = 1e-3;
 #[inline(always)]
 pub(super) fn add<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>, chosen: M<L>, deposits: &mut Deposits) {
     let l = way.pdf.lanes();
-    let mut emission = Spectrum::zero(l);
-    for row in way.core.media.rows().into_iter().flatten() {
-        emission += context.tables.materials.media.emission(l, row).keep_if(ends(context, way, row));
+    let media = &context.tables.materials.media;
+    let rows = way.core.media.rows();
+    let mut parts = [Spectrum::zero(l); 4];
+    for (part, row) in parts.iter_mut().zip(rows) {
+        let Some(row) = row else { continue };
+        *part = media.emission(l, row).keep_if(ends(context, way, row));
     }
-    let lit = chosen & emission.is_lit();
+    let lit = chosen & parts.iter().fold(l.m(false), |lit, part| lit | part.is_lit());
     if lit.any() {
-        deposit(context, (way, middle(way)), emission * seen_length(way) * way.core.throughput, lit, deposits);
+        let seen = seen_length(way) * way.core.throughput;
+        deposit(context, (way, middle(way)), parts.map(|part| part * seen), lit, deposits);
     }
 }
 
@@ -33,24 +37,48 @@ fn ends<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>, row: U<L>) -> M<L> 
     way.met | row.eq(context.tables.materials.media.everywhere)
 }
 
-/// What a metre of all media sends at a place of ways through some that vary, dimmed by the even ones before it, where a flight through these comes there.
+/// What a metre of each medium sends at a place of ways through some that vary, dimmed by the even ones before it, where a flight through these comes
+/// there.
 #[inline(always)]
-pub(super) fn sent<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>, track: &Track<'_, L>, place: F<L>) -> Spectrum<L> {
+pub(super) fn sent<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>, track: &Track<'_, L>, place: F<L>) -> [Spectrum<L>; 4] {
     let l = place.lanes();
     let media = &context.tables.materials.media;
-    let mut emission = track.emission(place);
-    for row in way.core.media.rows().into_iter().flatten() {
-        emission += media.emission(l, row).keep_if(media.field(l, row).eq(0) & ends(context, way, row));
+    let mut parts = track.emission(place);
+    for (part, row) in parts.iter_mut().zip(way.core.media.rows()) {
+        let Some(row) = row else { continue };
+        *part += media.emission(l, row).keep_if(media.field(l, row).eq(0) & ends(context, way, row));
     }
-    emission * left_where_flights_pass(way, (place - way.from).max(0.0))
+    let left = left_where_flights_pass(way, (place - way.from).max(0.0));
+    parts.map(|part| part * left)
 }
 
-/// Adds light that comes along ways, in the mean from so many metres of them.
+/// Adds light of each medium that comes along ways, in the mean from so many metres of them: together, or apart where light groups or expressions ask.
 #[inline(always)]
 pub(super) fn deposit<L: Lanes>(
     context: &MediumContext<'_>,
     (way, middle): (&Way<L>, F<L>),
-    light: Spectrum<L>,
+    parts: [Spectrum<L>; 4],
+    chosen: M<L>,
+    deposits: &mut Deposits,
+) {
+    let (l, transport) = (way.pdf.lanes(), context.transport);
+    if !transport.passes.groups.wanted() && transport.passes.expressions.is_none() {
+        let [a, b, c, d] = parts;
+        deposit_part(context, (way, middle), (a + b + c + d, Source::Several), chosen, deposits);
+        return;
+    }
+    for (part, row) in parts.into_iter().zip(way.core.media.rows()) {
+        let Some(row) = row else { continue };
+        let source = Source::Set(context.tables.materials.media.set(l, row));
+        deposit_part(context, (way, middle), (part, source), chosen & part.is_lit(), deposits);
+    }
+}
+
+#[inline(always)]
+fn deposit_part<L: Lanes>(
+    context: &MediumContext<'_>,
+    (way, middle): (&Way<L>, F<L>),
+    (light, source): (Spectrum<L>, Source<L>),
     chosen: M<L>,
     deposits: &mut Deposits,
 ) {
@@ -63,7 +91,7 @@ pub(super) fn deposit<L: Lanes>(
         code: with_state(transport.passes.expressions.as_deref(), code_of_found(flags, code::EMISSION), flags),
         shares: None,
         specular: is_specular_path(flags, way.core.slot),
-        source: Source::Several,
+        source,
     };
     let lit = chosen & value.is_lit();
     deposits.deposit(transport, &light, lit);
