@@ -45,9 +45,7 @@ OBJECTS = {
     "volume visibility": _untold(
         "Ray visibility of objects that hold volumes, for rays that start inside", "they go through the volume as others do, and do not see its end"
     ),
-    "volume groups": _untold(
-        "Light groups of what volumes and worlds' haze send", "in no group, told where one is asked for: the groups add up to the picture without it"
-    ),
+    "volume groups": _untold("Light groups of what worlds' haze sends", "among the lights of no group"),
     "open volumes": _untold(
         "Volumes of meshes that are open, or whose normals look inwards, before nothing",
         "endless, as deep as they look, but for their light; Cycles leaves them off rays that meet nothing",

@@ -6,6 +6,8 @@ import sys
 import gonio
 import numpy as np
 import pytest
+from gonio.medium import medium, volume_material
+from small_scenes import closure
 
 GROUPS = ["key", "panel", "sky", "other"]
 
@@ -79,3 +81,36 @@ def test_relight(tmp_path):
     assert np.allclose(written["Luminance"], expected @ [0.2126, 0.7152, 0.0722], rtol=1e-3, atol=1e-5)
     wrong = subprocess.run([*command[:5], "--group", "nobody=1", "-o", str(out)], capture_output=True, text=True)
     assert wrong.returncode == 1 and "nobody" in wrong.stderr and "key" in wrong.stderr
+
+
+def smoke_and_lamps(group, passes=()):
+    """Fire of a grid, an even body that shines, and haze, each alone or together; the first two in groups of their own."""
+    made = gonio.Scene()
+    made.add_camera(gonio.look_at((0, 0, 6), (0, 0, 0), (0, 1, 0)), fov=40)
+    made.set(width=16, height=16, samples=256, filter="box", caustics="off", max_bounces=4, passes=["color", *passes])
+    corners = np.array([[x, y, z] for z in (-1, 1) for y in (-1, 1) for x in (-2, 0)], "f4")
+    quads = [(0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6)]
+    triangles = np.array([corner for a, b, c, d in quads for corner in (a, b, c, a, c, d)], "i4").reshape(-1, 3)
+    clear = closure("Transparent", base_color=1.0)
+    body = medium(absorption=0.4, scattering=0.3, emission=1.0 if group in ("body", None) else 0.0)
+    glow = made.put_material({"origin": "body", "closures": [clear], "medium": body})
+    made.put_instances(made.add_mesh(corners, triangles), [glow], np.eye(4, dtype="f4")[None], light_group="body")
+    heat = 2.0 if group in ("fire", None) else 0.0
+    voxels = {"columns": [[0.5, 0, 0], [0, 0.5, 0], [0, 0, 0.5], [-0.5, -0.75, -0.75]]}
+    fire = made.put_field({"origin": "fire", "to_world": voxels}, density=np.ones((4, 4, 4), "f4"))
+    mesh, place = made.put_field_box(fire)
+    inside = {**medium(absorption=0.5, scattering=0.5, emission=heat), "field": fire}
+    made.put_instances(mesh, [made.put_material(volume_material("fire", inside))], np.array([place], "f4"), light_group="fire")
+    made.put_atmosphere(medium(absorption=0.02, scattering=0.02, emission=0.05 if group in ("other", None) else 0.0))
+    return film(made)
+
+
+def test_what_media_send_is_in_their_objects_groups():
+    """Bodies that overlap: each group is what a render has in which the others are dark, and all of them are the colour."""
+    names = ["body", "fire", "other"]
+    whole = smoke_and_lamps(None, [f"lightgroup:{name}" for name in names])
+    parts = {name: channels(whole, f"lightgroup:{name}") for name in names}
+    assert sum(parts.values()) == pytest.approx(channels(whole, "color")[..., :3], rel=1e-4, abs=1e-5)
+    for name in names:
+        alone = channels(smoke_and_lamps(name), "color")[..., :3]
+        assert parts[name].mean() == pytest.approx(alone.mean(), rel=0.02) and parts[name].mean() > 0.01, name
