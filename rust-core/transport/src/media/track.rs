@@ -45,6 +45,50 @@ pub(crate) struct Tracked<L: Lanes> {
     pub(crate) distance: F<L>,
     /// What is left of light there, over the probability of it; times the scattering where they scatter.
     pub(crate) weight: Spectrum<L>,
+    /// One of the places where they might have scattered.
+    pub(crate) place: Candidates<L>,
+}
+
+/// Places where rays might scatter: one of them, drawn by what each brings in the mean (weighted reservoir sampling), stands for all.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Candidates<L: Lanes> {
+    /// After how many metres it is.
+    pub(crate) distance: F<L>,
+    /// What it scatters.
+    scattered: Spectrum<L>,
+    /// The sum of all of them, of its components' means.
+    sum: F<L>,
+}
+
+impl<L: Lanes> Candidates<L> {
+    #[inline(always)]
+    fn none(l: L) -> Self {
+        Self { distance: l.f(0.0), scattered: Spectrum::zero(l), sum: l.f(0.0) }
+    }
+
+    /// Takes in one more of the chosen lanes, by a random number; says where it is the one that stands for all now.
+    #[inline(always)]
+    pub(crate) fn add(&mut self, distance: F<L>, scattered: Spectrum<L>, u: F<L>, chosen: M<L>) -> M<L> {
+        let share = scattered.abs().mean().keep_if(chosen);
+        self.sum += share;
+        let taken = chosen & (u * self.sum).lt(share);
+        self.distance = taken.select(distance, self.distance);
+        self.scattered = taken.select(scattered, self.scattered);
+        taken
+    }
+
+    /// The one that stands for all alone, so many metres further on, dimmed.
+    #[inline(always)]
+    pub(crate) fn alone(&self, distance: F<L>, left: Spectrum<L>) -> Self {
+        let scattered = self.whole() * left;
+        Self { distance, scattered, sum: scattered.abs().mean() }
+    }
+
+    /// What the place scatters in the place of all.
+    #[inline(always)]
+    pub(crate) fn whole(&self) -> Spectrum<L> {
+        self.scattered * (self.sum / self.scattered.abs().mean().max(f32::MIN_POSITIVE))
+    }
 }
 
 /// Random numbers of a register of rays.
@@ -201,6 +245,7 @@ impl<'a, L: Lanes> Track<'a, L> {
         });
         let mut active = chosen & self.varies & from.lt(to);
         let mut scattered = l.m(false);
+        let mut place = Candidates::none(l);
         for _ in 0..MOST_STEPS {
             if !active.any() {
                 break;
@@ -225,6 +270,10 @@ impl<'a, L: Lanes> Track<'a, L> {
                     }
                     None => l.f(0.0),
                 };
+                if scatter.is_some() {
+                    let share = weight * scattering * majorant.max(f32::MIN_POSITIVE).recip();
+                    place.add(t, share, random.next(), collides);
+                }
                 let scatters = collides & random.next().lt(probability);
                 let drawn = majorant * scatters.select(probability, 1.0 - probability);
                 let factor = scatters.select(scattering, null) * drawn.max(f32::MIN_POSITIVE).recip();
@@ -239,7 +288,7 @@ impl<'a, L: Lanes> Track<'a, L> {
             active = active.and_not(scattered) & t.lt(to) & weight.abs().max_component().gt(LEAST_WEIGHT);
         }
         let lost = (chosen & self.varies & t.lt(to)).and_not(scattered);
-        Tracked { scatters: scattered, distance: t, weight: lost.select(Spectrum::zero(l), weight) }
+        Tracked { scatters: scattered, distance: t, weight: lost.select(Spectrum::zero(l), weight), place }
     }
 
     /// What is left of light along the chosen rays; an estimate, compiled once.

@@ -6,11 +6,15 @@
 use super::context::MediumContext;
 use super::way::Way;
 use crate::media::phase::PhaseMix;
-use crate::media::track::{Track, depth, seed};
+use crate::media::track::{Track, Tracked, depth, seed};
 use crate::state::paths::Paths;
 use gonio_accel::{Hits, NONE};
-use gonio_camera::sampler::dimension;
-use gonio_simd::{F, Lanes, M, PADDING, Spectrum};
+use gonio_camera::sampler::{dimension, to_unit};
+use gonio_nodes::hash::hash2;
+use gonio_simd::{F, Lanes, M, PADDING, Spectrum, U};
+
+/// Tells the number that chooses among places from those of tracking.
+const LIT: u32 = 0x11d7;
 
 /// A register of flights.
 #[derive(Clone, Copy, Debug)]
@@ -22,6 +26,15 @@ pub(super) struct Flight<L: Lanes> {
     pub(super) factor: Spectrum<L>,
     /// Factor on that of those which come to the end of their way, beside what even media leave there.
     through: Spectrum<L>,
+}
+
+/// Where light is sampled for ways through media that vary: one place for all where their flights might have ended.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lit<L: Lanes> {
+    pub(super) distance: F<L>,
+    /// What the place scatters in the place of all, and how.
+    pub(super) factor: Spectrum<L>,
+    pub(super) phase: PhaseMix<L>,
 }
 
 impl<L: Lanes> Flight<L> {
@@ -61,15 +74,15 @@ pub(super) fn left_where_flights_pass<L: Lanes>(way: &Way<L>, distance: F<L>) ->
     way.transmittance(distance) * passes(way, distance).max(f32::MIN_POSITIVE).recip()
 }
 
-/// Follows ways through media that vary as far as their flights; gives the flights that they become, and lets ways scatter as their places do. `shines`
-/// takes what is sent along them.
+/// Follows ways through media that vary as far as their flights; gives the flights that they become and where they are lit, and lets ways scatter as
+/// their places do. `shines` takes what is sent along them.
 #[inline(always)]
 pub(super) fn track<L: Lanes>(
     context: &MediumContext<'_>,
     (way, track): (&mut Way<L>, &Track<'_, L>),
     even: Flight<L>,
     shines: impl FnMut(F<L>, F<L>, Spectrum<L>),
-) -> Flight<L> {
+) -> (Flight<L>, Lit<L>) {
     let l = way.pdf.lanes();
     let chosen = way.scatters & track.varies;
     let end = even.scatters.select(even.distance, way.length);
@@ -78,6 +91,7 @@ pub(super) fn track<L: Lanes>(
     let found = track.go([way.from, way.from + end], chosen, Some((way.core.throughput, first)), seed, shines);
     let scattered = chosen & found.scatters;
     let distance = (found.distance - way.from).max(0.0);
+    let lit = lit(context, (way, track), &even, &found, seed);
     let factor =
         scattered.select(found.weight * left_where_flights_pass(way, distance), chosen.select(even.factor * found.weight, even.factor));
     let densities = track.densities(found.distance);
@@ -85,12 +99,31 @@ pub(super) fn track<L: Lanes>(
     way.phase = way.phase.or(phase, scattered);
     let [_, extinction] = track.coefficients(found.distance, densities);
     way.extinction = scattered.select(extinction, way.extinction);
-    Flight {
+    let flight = Flight {
         scatters: even.scatters | scattered,
         distance: scattered.select(distance, even.distance),
         factor,
         through: chosen.select(even.through * found.weight, even.through),
-    }
+    };
+    (flight, lit)
+}
+
+/// The place where ways are lit: one of those where tracking might have scattered them, or where their flights through even media end.
+#[inline(always)]
+fn lit<L: Lanes>(
+    context: &MediumContext<'_>,
+    (way, track): (&Way<L>, &Track<'_, L>),
+    even: &Flight<L>,
+    found: &Tracked<L>,
+    seed: U<L>,
+) -> Lit<L> {
+    let l = way.pdf.lanes();
+    let distance = (found.place.distance - way.from).max(0.0);
+    let mut place = found.place.alone(distance, left_where_flights_pass(way, distance));
+    let phase = PhaseMix::at(l, way.core.media, &context.tables.materials.media, track.densities(found.place.distance));
+    let ended = even.scatters.and_not(found.scatters);
+    let evenly = place.add(even.distance, even.factor * found.weight, to_unit(hash2(l, seed, l.u(LIT))), ended);
+    Lit { distance: place.distance, factor: place.whole(), phase: phase.or(way.phase, evenly) }
 }
 
 /// Multiplies what a register of paths carries, from the one at `at` on.

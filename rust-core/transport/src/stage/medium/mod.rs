@@ -21,7 +21,7 @@ use crate::tables::Tables;
 use crate::tables::transport::Transport;
 use crate::words::flag;
 use context::MediumContext;
-use flight::Flight;
+use flight::{Flight, Lit};
 use gonio_simd::{Lanes, Spectrum, dispatch};
 use way::Way;
 
@@ -66,13 +66,28 @@ fn pass_paths<L: Lanes>(
         };
         light::sample_along(context, &way, going_on.and_not(at_places), &mut queues.shadows, deposits);
         let mut flight = flight::draw(context, &way);
+        let mut at_ends = at_places;
         if let Some(track) = &track {
-            flight = match media.shines() {
+            let lit;
+            (flight, lit) = match media.shines() {
                 true => pass_shining(context, &mut way, track, &flight, deposits),
                 false => pass_varying(context, &mut way, track, &flight),
             };
+            if context.transport.passes.deep.is_none() {
+                let place = Way { phase: lit.phase, ..way };
+                let scattering = going_on & tracked & lit.factor.is_lit();
+                light::sample_at(context, &place, (lit.distance, lit.factor), scattering, &mut queues.shadows, deposits);
+                at_ends = at_places.and_not(tracked);
+            }
         }
-        light::sample_at(context, &way, &flight, going_on & at_places & flight.scatters, &mut queues.shadows, deposits);
+        light::sample_at(
+            context,
+            &way,
+            (flight.distance, flight.factor),
+            going_on & at_ends & flight.scatters,
+            &mut queues.shadows,
+            deposits,
+        );
         let scattered = way.scatters & flight.scatters;
         let absorbed = (way.scatters & flight.is_absorbed()).and_not(scattered);
         scatter::add_seen(context, (&way, &flight), [scattered, absorbed], deposits);
@@ -83,7 +98,7 @@ fn pass_paths<L: Lanes>(
 
 /// Follows ways through media that vary.
 #[inline(never)]
-fn pass_varying<L: Lanes>(context: &MediumContext<'_>, way: &mut Way<L>, track: &Track<'_, L>, even: &Flight<L>) -> Flight<L> {
+fn pass_varying<L: Lanes>(context: &MediumContext<'_>, way: &mut Way<L>, track: &Track<'_, L>, even: &Flight<L>) -> (Flight<L>, Lit<L>) {
     way.pdf.lanes().vectorize(
         #[inline(always)]
         || flight::track(context, (way, track), *even, nothing),
@@ -98,7 +113,7 @@ fn pass_shining<L: Lanes>(
     track: &Track<'_, L>,
     even: &Flight<L>,
     deposits: &mut Deposits,
-) -> Flight<L> {
+) -> (Flight<L>, Lit<L>) {
     way.pdf.lanes().vectorize(
         #[inline(always)]
         || {
@@ -163,7 +178,7 @@ fn pass_light_paths<L: Lanes>(l: L, context: &MediumContext<'_>, paths: &mut Pat
         let Some(mut way) = Way::load(l, media, paths, hits, at).filter(|way| way.scatters.any()) else { continue };
         let mut flight = flight::draw(context, &way);
         if let Some(track) = way.track(media) {
-            flight = pass_varying(context, &mut way, &track, &flight);
+            (flight, _) = pass_varying(context, &mut way, &track, &flight);
         }
         let scattered = way.scatters & flight.scatters;
         scatter::go_on(context, &way, &flight, scattered & way.going_on(&context.transport.limits), next);
