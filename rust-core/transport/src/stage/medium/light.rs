@@ -1,4 +1,5 @@
-//! Next event estimation in media: a light is sampled for one place of each way; where media vary, for the place where it scatters.
+//! Next event estimation in media: a light is sampled for one place of each way; where media vary, for one of those where
+//! tracking might scatter it.
 //!
 //! In even media the place is drawn by distance or towards a point of the light (equiangular sampling), by the balance heuristic over both, where the light reaches
 //! the way. Kulla and Fajardo,

@@ -1,8 +1,8 @@
 //! Media that scatter: what happens to rays between surfaces (pbrt's `SampleMediumInteraction`, Cycles' `shade_volume`).
 //!
 //! The light that media send along rays is added (`shine`), a light is sampled for a place of each way (`light`), and it is drawn where paths scatter
-//! before what they would meet (`flight`, `scatter`). Where media vary, it is drawn first where paths scatter, and the light is sampled there. All of it
-//! in one pass over the rays that are in something.
+//! before what they would meet (`flight`, `scatter`). Where media vary, it is drawn first where paths scatter, and the light is sampled at one of the
+//! places where they might. All of it in one pass over the rays that are in something.
 
 mod context;
 mod flight;
