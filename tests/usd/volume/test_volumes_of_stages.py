@@ -310,7 +310,7 @@ def test_voxels_that_are_no_numbers_are_empty(tmp_path):
     shown.set(width=4, height=4, samples=1)
     with gonio.Render(shown) as render:
         assert render.wait() and np.isfinite(np.asarray(render.film()["color"])).all()
-        assert any("2 of its values are not finite numbers" in message for _, message in render.diagnostics)
+        assert any("2 of its values are no finite numbers" in message for _, message in render.diagnostics)
 
 
 def test_what_is_no_field_is_told(tmp_path):

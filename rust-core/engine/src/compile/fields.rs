@@ -45,9 +45,10 @@ pub(super) fn compile(scene: &Scene, before: &KeptFields, diagnostics: &mut Vec<
             false
         }
         None => {
-            let unknown: u64 = field.lattices().map(|lattice| lattice.unknown).sum();
+            // Lattices of one grid share its voxels.
+            let unknown = field.lattices().map(|lattice| lattice.unknown).max().unwrap_or(0);
             if unknown > 0 {
-                let problem = format!("{unknown} of its values are not finite numbers, and count as 0");
+                let problem = format!("{unknown} of its values are no finite numbers, and count as 0");
                 diagnostics.push(Diagnostic::warning(&field.origin, problem));
             }
             true
