@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from deep_reader import flatten, read
 from gonio.medium import medium
-from small_scenes import closure, finished
+from small_scenes import block, closure, finished
 
 pytest.importorskip("OpenEXR")
 DENSITY, NEAR, FAR = 0.8, 2.0, 4.0
@@ -25,11 +25,8 @@ def scene_of(kind, **coefficients):
         place = [[1, 0, 0, -9], [0, 1, 0, -9], [0, 0, 1, -FAR], [0, 0, 0, 1]]
         scene.add_volume(grid, voxel=1.0, transform=place, **coefficients)
         return scene
-    corners = np.array([[x, y, z] for z in (-FAR, -NEAR) for y in (-9, 9) for x in (-9, 9)], "f4")
-    quads = [(0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6)]
-    triangles = np.array([corner for a, b, c, d in quads for corner in (a, b, c, a, c, d)], "i4").reshape(-1, 3)
     fog = scene.put_material({"origin": "fog", "closures": [closure("Transparent", base_color=1.0)], "medium": medium(**coefficients)})
-    scene.add_instance(scene.add_mesh(corners, triangles), [fog])
+    scene.add_instance(scene.add_mesh(*block((-9, -9, -FAR), (9, 9, -NEAR))), [fog])
     return scene
 
 

@@ -7,7 +7,7 @@ import gonio
 import numpy as np
 import pytest
 from gonio.medium import medium, volume_material
-from small_scenes import closure
+from small_scenes import block, closure
 
 GROUPS = ["key", "panel", "sky", "other"]
 
@@ -88,13 +88,10 @@ def smoke_and_lamps(group, passes=()):
     made = gonio.Scene()
     made.add_camera(gonio.look_at((0, 0, 6), (0, 0, 0), (0, 1, 0)), fov=40)
     made.set(width=16, height=16, samples=256, filter="box", caustics="off", max_bounces=4, passes=["color", *passes])
-    corners = np.array([[x, y, z] for z in (-1, 1) for y in (-1, 1) for x in (-2, 0)], "f4")
-    quads = [(0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6)]
-    triangles = np.array([corner for a, b, c, d in quads for corner in (a, b, c, a, c, d)], "i4").reshape(-1, 3)
     clear = closure("Transparent", base_color=1.0)
     body = medium(absorption=0.4, scattering=0.3, emission=1.0 if group in ("body", None) else 0.0)
     glow = made.put_material({"origin": "body", "closures": [clear], "medium": body})
-    made.put_instances(made.add_mesh(corners, triangles), [glow], np.eye(4, dtype="f4")[None], light_group="body")
+    made.put_instances(made.add_mesh(*block((-2, -1, -1), (0, 1, 1))), [glow], np.eye(4, dtype="f4")[None], light_group="body")
     heat = 2.0 if group in ("fire", None) else 0.0
     voxels = {"columns": [[0.5, 0, 0], [0, 0.5, 0], [0, 0, 0.5], [-0.5, -0.75, -0.75]]}
     fire = made.put_field({"origin": "fire", "to_world": voxels}, density=np.ones((4, 4, 4), "f4"))

@@ -6,18 +6,14 @@ import gonio
 import numpy as np
 import pytest
 from gonio.medium import haze, medium
-from small_scenes import closure, finished
+from small_scenes import block, closure, finished
 
 
 def box(scene, low, high, closures=(), **coefficients):
     """A box of a medium."""
-    corners = [[(low, high)[i >> axis & 1][axis] for axis in range(3)] for i in range(8)]
-    quads = [(0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6)]
-    triangles = [corner for a, b, c, d in quads for corner in (a, b, c, a, c, d)]
     surface = list(closures) or [closure("Transparent", base_color=1.0)]
     material = scene.put_material({"origin": "fog", "closures": surface, "medium": medium(**coefficients)})
-    mesh = scene.add_mesh(np.array(corners, "f4"), np.array(triangles, "i4").reshape(-1, 3))
-    scene.add_instance(mesh, [material])
+    scene.add_instance(scene.add_mesh(*block(low, high)), [material])
 
 
 def looking(origin, target, size=8, up=(0.0, 1.0, 0.0), degrees=0.02):

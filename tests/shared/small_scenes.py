@@ -42,6 +42,14 @@ FLOOR = np.array([[-5, 0, 5], [5, 0, 5], [5, 0, -5], [-5, 0, -5]], "f4")
 QUAD = np.array([[0, 1, 2], [0, 2, 3]], "i4")
 
 
+def block(low, high):
+    """Corners and triangles of a box along the axes."""
+    corners = [[(low, high)[i >> axis & 1][axis] for axis in range(3)] for i in range(8)]
+    quads = [(0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6)]
+    triangles = [corner for a, b, c, d in quads for corner in (a, b, c, a, c, d)]
+    return np.array(corners, "f4"), np.array(triangles, "i4").reshape(-1, 3)
+
+
 def floor_scene(**settings):
     """A grey floor of 10 m by 10 m, a small sphere light 2 m over its middle, and a camera that looks down."""
     scene = gonio.Scene()

@@ -71,15 +71,16 @@ def bake(dense, shining, lattice, grids):
     for start in range(0, lattice.count, AT_ONCE):
         rows = np.arange(start, min(start + AT_ONCE, lattice.count))
         found = dense.on(lattice, rows, arrays).astype(float)
-        taken.add(rows, np.maximum(found[:, :6], 0.0))
+        coefficients = np.maximum(found[:, :6], 0.0)
+        taken.add(rows, coefficients)
         turned += float(found[:, 6].sum())
         shone = np.maximum(shining.on(lattice, rows, arrays).astype(float), 0.0)
         sent.add(rows, shone)
         if rows_taken is not None:
-            rows_taken.append(np.maximum(found[:, :6], 0.0).astype(np.float32))
+            rows_taken.append(coefficients.astype(np.float32))
             rows_sent.append(shone.astype(np.float32))
-    shares = taken.shares()
-    shape = lattice.shape
+    shares, shape = taken.shares(), lattice.shape
+    taken_apart, sent_apart = taken.are_apart(), sent.are_apart()
     return Baked(
         taken.whole.reshape(shape),
         sent.whole.reshape(shape),
@@ -87,10 +88,10 @@ def bake(dense, shining, lattice, grids):
         shares[3:],
         taken.of_one(turned),
         sent.shares(),
-        taken.are_apart(),
-        sent.are_apart(),
-        _whole(rows_taken, shape) if taken.are_apart() else None,
-        _whole(rows_sent, shape) if sent.are_apart() else None,
+        taken_apart,
+        sent_apart,
+        _whole(rows_taken, shape) if taken_apart else None,
+        _whole(rows_sent, shape) if sent_apart else None,
     )
 
 

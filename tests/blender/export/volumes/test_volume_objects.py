@@ -100,10 +100,10 @@ def test_what_varies_otherwise_is_asked_point_by_point(tmp_path):
     assert not dense[0].any() and not dense[..., -1].any()
 
 
-@pytest.mark.blender
-def test_colours_by_voxel_are_kept(tmp_path):
+def red_and_blue(path):
+    """A cloud that is red in its lower half along x and blue in the other, by an attribute of its file."""
     import numpy as np
-    from clouds import ball, cloud, exported, filled, stored
+    from clouds import ball, cloud, filled, stored
     from recorder import empty
 
     empty()
@@ -111,7 +111,15 @@ def test_colours_by_voxel_are_kept(tmp_path):
     shader.inputs["Color Attribute"].default_value = "color"
     colour = np.zeros((12, 12, 12, 3), dtype=np.float32)
     colour[:6, ..., 0], colour[6:, ..., 2] = 1.0, 1.0
-    cloud(stored(tmp_path / "cloud.vdb", density=ball(), color=colour), made)
+    cloud(stored(path, density=ball(), color=colour), made)
+
+
+@pytest.mark.blender
+def test_colours_by_voxel_are_kept(tmp_path):
+    import numpy as np
+    from clouds import ball, exported
+
+    red_and_blue(tmp_path / "cloud.vdb")
     _, scene, lines = exported()
     assert not lines
     medium, field = scene.materials[0]["medium"], scene.fields[0]
@@ -130,15 +138,9 @@ def test_colours_of_very_many_voxels_are_their_mean_and_told(tmp_path):
     import sys
 
     import numpy as np
-    from clouds import ball, cloud, exported, filled, stored
-    from recorder import empty
+    from clouds import ball, exported
 
-    empty()
-    made, _, shader = filled("VolumePrincipled", Color=(1.0, 1.0, 1.0, 1.0))
-    shader.inputs["Color Attribute"].default_value = "color"
-    colour = np.zeros((12, 12, 12, 3), dtype=np.float32)
-    colour[:6, ..., 0], colour[6:, ..., 2] = 1.0, 1.0
-    cloud(stored(tmp_path / "cloud.vdb", density=ball(), color=colour), made)
+    red_and_blue(tmp_path / "cloud.vdb")
     baked = sys.modules["gonio_extension.export.volumes.baked"]
     before, baked.COLOURED = baked.COLOURED, 100
     try:
