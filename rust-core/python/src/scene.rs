@@ -363,7 +363,11 @@ impl Scene {
     ///
     /// Where colours vary, `taken` is an array (nx, ny, nz, 6) of factors on the medium's extinction, R, G, B, and on its scattering, of which the
     /// density is at least the greatest; `sent` (nx, ny, nz, 3) has factors on its emission, in place of the heat.
-    #[pyo3(signature = (description, index = None, *, density, heat = None, taken = None, sent = None))]
+    ///
+    /// `flow` is how what is there moves from time 0 of the shutter to time 1, and `rests` the time at which the numbers hold: an array (nx, ny, nz, 3)
+    /// with three factors that make voxels of it; or for a file the names of its grid of velocities, or of three for x, y and z, with how long the
+    /// shutter is open in their unit of time.
+    #[pyo3(signature = (description, index = None, *, density, heat = None, taken = None, sent = None, flow = None, rests = 0.5))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn put_field(
         &mut self,
@@ -374,9 +378,11 @@ impl Scene {
         heat: Option<field::Source<'_>>,
         taken: Option<Bound<'_, PyAny>>,
         sent: Option<Bound<'_, PyAny>>,
+        flow: Option<field::FlowSource<'_>>,
+        rests: f32,
     ) -> PyResult<u32> {
         let described = description::read(description, "field")?;
-        let field = field::filled(py, described, (&density, heat.as_ref()), [taken, sent])?;
+        let field = field::filled(py, described, (&density, heat.as_ref()), [taken, sent], &field::Moving { flow, rests })?;
         description::put(&mut self.scene.fields, "field", field, index)
     }
 
@@ -386,10 +392,22 @@ impl Scene {
         let count = self.scene.fields.len();
         let wrong = || PyValueError::new_err(format!("field {field} was asked for, the scene has {count}"));
         let field = self.scene.fields.get(field as usize).ok_or_else(wrong)?;
-        let [x, y, z, t] = field.to_world.columns;
-        let row = |axis: usize| [x[axis], y[axis], z[axis], t[axis]];
-        let place = [row(0), row(1), row(2), [0.0, 0.0, 0.0, 1.0]];
+        let place = description::matrix(&field.to_world);
         Ok((description::put(&mut self.scene.meshes, "mesh", field.mesh(), index)?, place))
+    }
+
+    /// Where a field lies when the map `to_world`, which it was put with, is one of `keys` instead: 4×4 matrices for column vectors.
+    fn field_places(&self, field: u32, to_world: &Bound<'_, PyDict>, keys: Vec<Bound<'_, PyDict>>) -> PyResult<Vec<[[f64; 4]; 4]>> {
+        let count = self.scene.fields.len();
+        let wrong = || PyValueError::new_err(format!("field {field} was asked for, the scene has {count}"));
+        let field = self.scene.fields.get(field as usize).ok_or_else(wrong)?;
+        let to_world: scene::Transform = description::read(to_world, "transform")?;
+        let Some(back) = to_world.inverse() else { return Ok(Vec::new()) };
+        let place = |key: &Bound<'_, PyDict>| {
+            let key: scene::Transform = description::read(key, "transform")?;
+            Ok(description::matrix(&key.after(&back).after(&field.to_world)))
+        };
+        keys.iter().map(place).collect()
     }
 
     /// Keeps the first `n` elements of a kind: meshes, curves, points, instances, materials, textures, measured, fields, lights, cameras, meters or grids.

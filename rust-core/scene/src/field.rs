@@ -1,6 +1,6 @@
 //! Fields: what varies from place to place within a medium, by a lattice of numbers.
 
-use super::{Mesh, Origin, Transform, blob};
+use super::{Flow, Mesh, Origin, Transform, blob};
 use gonio_volume::{BRICK_EDGE, BRICK_VOXELS, Grid, open};
 use serde::{Deserialize, Serialize};
 use std::{path::Path, sync::Arc};
@@ -46,10 +46,12 @@ impl Lattice {
     ///
     /// If nothing is active, no value is a finite number, or tiles come to too many blocks.
     pub fn of_grid(grid: &Grid, edges: Option<[usize; 3]>) -> Result<Self, String> {
-        let scalar = |[x, y, z]: [f32; 3]| {
-            let mean = if x == y && y == z { x } else { (x + y + z) / 3.0 };
-            if mean.is_finite() { mean } else { 0.0 }
-        };
+        Self::of(grid, edges, |[x, y, z]| if x == y && y == z { x } else { (x + y + z) / 3.0 })
+    }
+
+    /// The same with what a function makes of the grid's values.
+    pub(super) fn of(grid: &Grid, edges: Option<[usize; 3]>, value: impl Fn([f32; 3]) -> f32) -> Result<Self, String> {
+        let scalar = |found: [f32; 3]| Some(value(found)).filter(|x| x.is_finite()).unwrap_or(0.0);
         let unknown = grid.not_finite();
         if unknown > 0 && unknown >= grid.active_voxels() {
             return Err(format!("grid '{}': none of its {unknown} values is a finite number", grid.name));
@@ -143,6 +145,22 @@ pub struct Field {
     /// Where the colour that is sent varies: factors on the medium's emission, R, G, B, in place of the heat; else empty.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub sent: Vec<Lattice>,
+    /// How all of it moves while the shutter is open, within the box; `None` where it does not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub flow: Option<Flow>,
+}
+
+/// Names of the grids of a file that make a field.
+#[derive(Clone, Debug, Default)]
+pub struct GridNames {
+    /// The density.
+    pub density: String,
+    /// What the emission follows.
+    pub heat: Option<String>,
+    /// Velocities in the file's space: one grid of vectors, three of one component each, or none.
+    pub velocity: Vec<String>,
+    /// How long the shutter is open, in the velocities' unit of time, and its time at which the numbers hold.
+    pub shutter: (f64, f32),
 }
 
 /// Lattices of [`Field::taken`] and of [`Field::sent`], where there are any.
@@ -153,12 +171,12 @@ impl Field {
     ///
     /// # Errors
     ///
-    /// If the file cannot be read, has no such grid, or the two grids lie on different lattices.
-    pub fn read(origin: Origin, path: &Path, density: &str, heat: Option<&str>, to_world: &Transform) -> Result<Self, String> {
+    /// If the file cannot be read, has no such grid, or density and heat lie on different lattices.
+    pub fn read(origin: Origin, path: &Path, names: &GridNames, to_world: &Transform) -> Result<Self, String> {
         let file = open(path).map_err(|error| error.to_string())?;
         let grid = |name: &str| file.read_named(name).map_err(|error| error.to_string());
-        let density = grid(density)?;
-        let heat = heat.map(grid).transpose()?;
+        let density = grid(&names.density)?;
+        let heat = names.heat.as_deref().map(grid).transpose()?;
         if let Some(heat) = heat.as_ref().filter(|heat| heat.transform != density.transform) {
             return Err(format!("the grids '{}' and '{}' have voxels of different places or sizes; resample one", density.name, heat.name));
         }
@@ -166,7 +184,10 @@ impl Field {
         let heat = heat.map(|grid| Lattice::of_grid(&grid, None)).transpose()?;
         let hottest = heat.as_ref().map_or(0.0, Lattice::most);
         let density = Lattice::of_grid(&density, None)?;
-        Ok(Self { origin, to_world: to_world.after(&inner), density, heat, hottest, ..Self::default() })
+        let velocity = names.velocity.iter().map(|name| grid(name)).collect::<Result<Vec<_>, _>>()?;
+        let of_grids = || Flow::of_grids(&velocity, (&density, &inner), names.shutter.0, names.shutter.1);
+        let flow = if velocity.is_empty() { None } else { Some(of_grids()?) };
+        Ok(Self { origin, to_world: to_world.after(&inner), density, heat, hottest, flow, ..Self::default() })
     }
 
     /// Whether both are the same but for their names and where they lie.
@@ -177,15 +198,21 @@ impl Field {
         };
         let are_one = |a: &[Lattice], b: &[Lattice]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.holds_arrays_of(b));
         let colours_are_one = are_one(&self.taken, &other.taken) && are_one(&self.sent, &other.sent);
+        let flows_are_one = match (&self.flow, &other.flow) {
+            (Some(a), Some(b)) => a.rests == b.rests && are_one(&a.cells, &b.cells),
+            (a, b) => a.is_none() && b.is_none(),
+        };
         heats_are_one
             && colours_are_one
+            && flows_are_one
             && self.density.holds_arrays_of(&other.density)
             && (&self.glow, self.hottest) == (&other.glow, other.hottest)
     }
 
     /// All of its lattices.
     pub fn lattices(&self) -> impl Iterator<Item = &Lattice> {
-        [&self.density].into_iter().chain(&self.heat).chain(&self.taken).chain(&self.sent)
+        let flow = self.flow.iter().flat_map(|flow| &flow.cells);
+        [&self.density].into_iter().chain(&self.heat).chain(&self.taken).chain(&self.sent).chain(flow)
     }
 
     /// The box about all of it, lattice coordinates.
@@ -197,9 +224,20 @@ impl Field {
         }
     }
 
+    /// The box that it comes to as it flows, at most half as wide again on each side.
+    pub fn reach(&self) -> [[f32; 3]; 2] {
+        let [min, max] = self.domain();
+        let Some(flow) = &self.flow else { return [min, max] };
+        let wider = [0, 1, 2].map(|axis| {
+            let way = flow.most[axis] * flow.rests.abs().max((1.0 - flow.rests).abs());
+            way.min(0.5 * (max[axis] - min[axis]))
+        });
+        [[0, 1, 2].map(|axis| min[axis] - wider[axis]), [0, 1, 2].map(|axis| max[axis] + wider[axis])]
+    }
+
     /// The box as a mesh in lattice coordinates, whose faces look outwards; [`Field::to_world`] places it.
     pub fn mesh(&self) -> Mesh {
-        let [min, max] = self.domain();
+        let [min, max] = self.reach();
         Mesh { origin: self.origin.clone(), ..Mesh::of_box(min, max) }
     }
 }

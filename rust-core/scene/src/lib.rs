@@ -17,6 +17,7 @@ mod digest;
 mod displacement;
 pub mod error;
 mod field;
+mod flow;
 mod goniogram;
 mod instance;
 mod lamp_spectrum;
@@ -54,7 +55,8 @@ pub use dicing::Dicing;
 pub use digest::{Digest, Digesting};
 pub use displacement::{Displacement, DisplacementKind};
 pub use error::{Diagnostic, Error, Result, Severity};
-pub use field::{COLOURS, Field, Lattice};
+pub use field::{COLOURS, Field, GridNames, Lattice};
+pub use flow::Flow;
 pub use gonio_formats::photometry::{Opening, OpeningShape, PhotometricType};
 pub use gonio_nodes::{
     Channel, Graph, Input, LightPathValue, Node, NodeId, Operation, Quantity, Space, TextureFilter, TextureId, WrapMode,

@@ -54,7 +54,7 @@ pub use tables::Tables;
 pub use tables::bodies::{Bodies, Body};
 pub use tables::bright_places::{ArrivalCells, BrightPlaces};
 pub use tables::expressions::{KIND_BITS, PathExpressions};
-pub use tables::fields::{FieldLayout, FieldRow, FieldTable, GLOW, Numbers, POINTS};
+pub use tables::fields::{FieldLayout, FieldRow, FieldTable, GLOW, MovingFields, Numbers, POINTS};
 pub use tables::guiding::{GuidingField, GuidingNote, Learning};
 pub use tables::light_groups::{GroupPasses, LightGroups, UNSEEN};
 pub use tables::links::Links;

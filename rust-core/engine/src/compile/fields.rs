@@ -1,5 +1,6 @@
 //! Fields of media as tables of bricks.
 
+use super::times::blurs;
 use crate::{
     error::Diagnostic,
     scene::{BRICK_EDGE, BRICK_VOXELS, COLOURS, Field, Lattice, Scene},
@@ -17,6 +18,8 @@ const MOST_FILLED: usize = 2_800_000;
 /// Fields as they were laid out.
 #[derive(Clone, Debug, Default)]
 pub(super) struct KeptFields {
+    /// Whether they flow that can.
+    blurred: bool,
     fields: Vec<Field>,
     usable: Vec<bool>,
     table: FieldTable,
@@ -25,13 +28,16 @@ pub(super) struct KeptFields {
 impl KeptFields {
     /// What is kept of a scene whose fields are laid out.
     pub(super) fn of(scene: &Scene, usable: Vec<bool>, table: &FieldTable) -> Self {
-        Self { fields: scene.fields.clone(), usable, table: table.clone() }
+        Self { blurred: blurs(&scene.settings), fields: scene.fields.clone(), usable, table: table.clone() }
     }
 
     /// Whether a scene's fields are these, and can be used as they could.
     fn is_of(&self, scene: &Scene, usable: &[bool]) -> bool {
         let both = || self.fields.iter().zip(&scene.fields);
-        self.usable == usable && self.fields.len() == scene.fields.len() && both().all(|(old, new)| old.holds_arrays_of(new))
+        self.blurred == blurs(&scene.settings)
+            && self.usable == usable
+            && self.fields.len() == scene.fields.len()
+            && both().all(|(old, new)| old.holds_arrays_of(new))
     }
 }
 
@@ -62,7 +68,7 @@ pub(super) fn compile(scene: &Scene, before: &KeptFields, diagnostics: &mut Vec<
         return (before.table.clone(), kept);
     }
     let numbers = 0..scene.fields.len();
-    let lay = |number: usize| (kept[number] && alike[number].is_none()).then(|| Laid::new(&scene.fields[number]));
+    let lay = |number: usize| (kept[number] && alike[number].is_none()).then(|| Laid::new(&scene.fields[number], blurs(&scene.settings)));
     let laid: Vec<Option<Laid<'_>>> = numbers.clone().map(lay).collect();
     let row = |number: usize| match (&laid[number], alike[number]) {
         (Some(laid), _) => FieldRow::New(Box::new(laid.layout())),
@@ -128,15 +134,15 @@ fn problem(field: &Field, filled: Option<&mut usize>) -> Option<String> {
 }
 
 /// The lattice point that the first brick begins at.
-fn base(field: &Field) -> [i32; 3] {
-    let [min, _] = field.domain();
+pub(super) fn base(field: &Field) -> [i32; 3] {
+    let [min, _] = field.reach();
     // Arrays reach half a voxel beyond their points, bricks of grids keep their places.
     min.map(|x| if field.density.extended.is_some() { x.floor() as i32 } else { (x.floor() as i32).div_euclid(BRICK_EDGE) * BRICK_EDGE })
 }
 
 /// Bricks along the axes.
 fn bricks(field: &Field) -> [usize; 3] {
-    let ([_, max], base) = (field.domain(), base(field));
+    let ([_, max], base) = (field.reach(), base(field));
     [0, 1, 2].map(|axis| ((f64::from(max[axis]).floor() as i64 - i64::from(base[axis])) / i64::from(BRICK_EDGE) + 1).max(1) as usize)
 }
 
@@ -147,11 +153,13 @@ struct Laid<'a> {
     heat: Option<Places<'a>>,
     taken: Vec<Places<'a>>,
     sent: Vec<Places<'a>>,
+    flow: Vec<Places<'a>>,
 }
 
 impl<'a> Laid<'a> {
-    fn new(field: &'a Field) -> Self {
+    fn new(field: &'a Field, blurred: bool) -> Self {
         let base = base(field);
+        let flow = field.flow.as_ref().filter(|_| blurred);
         let all = |lattices: &'a [Lattice]| lattices.iter().map(|lattice| Places::new(lattice, base)).collect();
         Self {
             field,
@@ -159,15 +167,29 @@ impl<'a> Laid<'a> {
             heat: field.heat.as_ref().map(|heat| Places::new(heat, base)),
             taken: all(&field.taken),
             sent: all(&field.sent),
+            flow: flow.map_or_else(Vec::new, |flow| all(&flow.cells)),
         }
     }
 
     fn layout(&self) -> FieldLayout<'_> {
         let (field, base) = (self.field, base(self.field));
-        let domain = field.domain().map(|corner| [0, 1, 2].map(|axis| corner[axis] - base[axis] as f32));
-        let heat = self.heat.as_ref().map(|heat| heat as &dyn Numbers);
-        let [taken, sent] = [&self.taken, &self.sent].map(|places| places.iter().map(|places| places as &dyn Numbers).collect());
-        FieldLayout { bricks: bricks(field), domain, density: &self.density, heat, taken, sent, glow: glow(field), hottest: field.hottest }
+        let reach = if self.flow.is_empty() { field.domain() } else { field.reach() };
+        let [domain, reach] = [field.domain(), reach].map(|ends| ends.map(|corner| [0, 1, 2].map(|axis| corner[axis] - base[axis] as f32)));
+        let all = [&self.taken, &self.sent, &self.flow];
+        let [taken, sent, flow] = all.map(|places| places.iter().map(|places| places as &dyn Numbers).collect());
+        FieldLayout {
+            bricks: bricks(field),
+            domain,
+            reach,
+            density: &self.density,
+            heat: self.heat.as_ref().map(|heat| heat as &dyn Numbers),
+            taken,
+            sent,
+            flow,
+            rests: field.flow.as_ref().map_or(0.0, |flow| flow.rests),
+            glow: glow(field),
+            hottest: field.hottest,
+        }
     }
 }
 

@@ -35,6 +35,7 @@ mod measured;
 mod metals;
 mod motion;
 mod motion_vectors;
+mod moving_fields;
 mod numbers;
 mod openings;
 mod oversized;
@@ -193,6 +194,7 @@ fn report(scene: &Scene, materials: &MaterialTable, lights: &LightTable, diagnos
     smooth::report_emission(scene, emits, diagnostics);
     whitted::report(scene, materials, lights, diagnostics);
     light_alone::report(scene, materials, lights, diagnostics);
+    moving_fields::report(scene, diagnostics);
     materials::media::report(&scene.atmosphere, lights, diagnostics);
 }
 
@@ -201,6 +203,7 @@ fn tables(scene: &Scene, bvh: Tlas, looks: &mut Looks, shapes: &mut Shapes, ligh
     let (geometry, mut materials) = (mem::take(&mut shapes.geometry.table), mem::take(&mut looks.materials));
     let (first_light_instance, origin) = (shapes.geometry.first_light, shapes.origin);
     fields::place(scene, origin, &mut materials.media.fields);
+    materials.media.fields.set_moving(moving_fields::moving(scene, origin));
     let any_absorbing = !materials.media.is_empty()
         || scene.materials.iter().flat_map(|material| &material.closures).any(|closure| closure.input("transmission_depth").is_some());
     let rows = geometry.instances.iter().take(first_light_instance as usize).map(|row| (row.set, row.number, row.mesh));

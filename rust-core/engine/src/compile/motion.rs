@@ -5,11 +5,11 @@ use super::{
     times::{blurs, shows_vectors},
 };
 use crate::{
-    accel::{MovingInstance, Tlas},
+    accel::MovingInstance,
     error::Diagnostic,
     geometry::{GeometryTable, MeshKeys, NONE},
     scene::{Camera, Instances, Light, LightShape, Mesh, Origin, Scene, Settings, Shutter, Transform, key_problem},
-    transport::{Rolling, Shutter as ShutterTable},
+    transport::{Rolling, Shutter as ShutterTable, Tables},
 };
 use gonio_simd::motion::{Interpolation, Motion, Rows};
 use std::sync::Arc;
@@ -128,8 +128,9 @@ pub(super) fn report_cameras(scene: &Scene, diagnostics: &mut Vec<Diagnostic>) {
 }
 
 /// The shutter of a view, if anything moves in it.
-pub(super) fn shutter(tree: &Tlas, camera: Option<&Motion>, settings: &Settings) -> Option<Arc<ShutterTable>> {
-    (blurs(settings) && (tree.moves() || camera.is_some())).then(|| Arc::new(table(settings)))
+pub(super) fn shutter(tables: &Tables, camera: Option<&Motion>, settings: &Settings) -> Option<Arc<ShutterTable>> {
+    let moves = tables.bvh.moves() || tables.materials.media.fields.moves() || camera.is_some();
+    (blurs(settings) && moves).then(|| Arc::new(table(settings)))
 }
 
 fn table(settings: &Settings) -> ShutterTable {

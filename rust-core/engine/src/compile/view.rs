@@ -54,7 +54,7 @@ impl View {
         let motion = motion::of_camera(camera, settings, scene.tables.origin);
         let surroundings = surroundings_at(&scene.tables, &[camera.transform.columns[3]])[0];
         let table = CameraTable { motion, surroundings, ..table };
-        let shutter = motion::shutter(&scene.tables.bvh, table.motion.as_deref(), settings);
+        let shutter = motion::shutter(&scene.tables, table.motion.as_deref(), settings);
         let forward = table.axes[2].map(|x| -x);
         let mut transport = Transport {
             shutter,
@@ -132,7 +132,7 @@ pub(crate) fn transport(scene: &CompiledScene, settings: &Settings, execution: E
         path_filter: PathFilter::All,
         estimator,
         light_paths: None,
-        shutter: motion::shutter(&scene.tables.bvh, None, settings),
+        shutter: motion::shutter(&scene.tables, None, settings),
         photons: None,
         first_light: FirstLight::Splats,
     }

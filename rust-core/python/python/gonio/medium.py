@@ -100,3 +100,10 @@ def of_voxels(to_world: dict[str, Any], edges: Sequence[float]) -> dict[str, Any
     scaled = [[edge * part for part in axis] for axis, edge in zip(axes, edges, strict=True)]
     corner = [place + sum(axis[part] * 0.5 for axis in scaled) for part, place in enumerate(origin)]
     return {"columns": [*scaled, corner]}
+
+
+def flow_of(velocity: Any, shutter_s: float, edges: Sequence[float] | None) -> tuple[Any, Any]:
+    """What `Scene.put_field` takes as the flow of velocities, m/s: those of an array whose voxels have these edges, or the names of a file's grids."""
+    if edges is not None:
+        return velocity, [shutter_s / edge for edge in edges]
+    return [velocity] if isinstance(velocity, str) else [str(name) for name in velocity], float(shutter_s)

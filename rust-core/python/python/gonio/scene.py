@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Unpack
 from . import _gonio
 from .description import camera, columns, material, measurand, numbers
 from .light import Photometry, light
-from .medium import Coefficient, medium, of_voxels, volume_material
+from .medium import Coefficient, flow_of, medium, of_voxels, volume_material
 from .texture import Texture, described
 
 if TYPE_CHECKING:
@@ -97,6 +97,10 @@ class Scene(_gonio.Scene):
         glow: Sequence[Sequence[float]] = (),
         voxel: float | Sequence[float] = 1.0,
         transform: Matrix | None = None,
+        motion: Sequence[Matrix] = (),
+        velocity: Numbers | str | Sequence[str] | None = None,
+        shutter_s: float = 1 / 48,
+        rests: float = 0.5,
         name: str = "volume",
         **numbers_of_phase: float,
     ) -> int:
@@ -104,17 +108,25 @@ class Scene(_gonio.Scene):
         multiplies scattering and absorption, 1/m; `heat`, likewise, the emission, cd/m² a metre, by the factors of `glow`, evenly from no heat to
         the most. An array fills a box from the origin on, `voxel` metres a voxel; `transform` places that, or the file's space. `anisotropy`, `phase`
         and its numbers are those of `gonio.medium.medium`.
+
+        `motion` gives the transform at evenly spaced times over the shutter, and the middle one stands for it where that is left out. `velocity`,
+        m/s before the transform, has what is there flow while the shutter is open, `shutter_s` seconds: an array (nx, ny, nz, 3), or the name of the
+        file's grid of vectors, or of three for x, y and z. The numbers hold at `rests`, from 0 as it opens to 1.
         """
-        to_world = columns(transform)
+        if transform is None and motion:
+            transform = motion[len(motion) // 2]
+        to_world, keys = columns(transform), [columns(key) for key in motion]
+        edges = None
         if not isinstance(density, tuple):
             edges = numbers("voxel", [voxel] * 3 if isinstance(voxel, (int, float)) else voxel, 3)
-            to_world = of_voxels(to_world, edges)
+            to_world, keys = of_voxels(to_world, edges), [of_voxels(key, edges) for key in keys]
+        flow = None if velocity is None else flow_of(velocity, shutter_s, edges)
         described = {"origin": name, "to_world": to_world, "glow": [numbers("glow", factor, 3) for factor in glow]}
-        field = self.put_field(described, density=density, heat=heat)
+        field = self.put_field(described, density=density, heat=heat, flow=flow, rests=rests)
         box, placed = self.put_field_box(field)
         inside = medium(scattering=scattering, absorption=absorption, emission=emission, anisotropy=anisotropy, phase=phase, **numbers_of_phase)
         filled = self.put_material(volume_material(name, {**inside, "field": field}))
-        self.add_instance(box, [filled], transform=placed, name=name)
+        self.add_instance(box, [filled], transform=placed, motion=self.field_places(field, to_world, keys), name=name)
         return field
 
     def add_material(self, name: str = "material", **parameters: float | bool | Sequence[float] | Texture | str | Mapping[str, Any]) -> int:

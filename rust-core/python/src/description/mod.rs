@@ -6,7 +6,7 @@ mod reader;
 mod writer;
 
 use crate::error::setting;
-use gonio::scene::{Texture, TextureSource, Tile, Visibility};
+use gonio::scene::{Texture, TextureSource, Tile, Transform, Visibility};
 use pyo3::{prelude::*, pybacked::PyBackedBytes, types::PyDict};
 use reader::Reader;
 use serde::{Serialize, de, de::DeserializeOwned, ser};
@@ -26,6 +26,13 @@ pub(crate) fn read<T: DeserializeOwned>(description: &Bound<'_, PyAny>, kind: &s
 /// An element as a dictionary.
 pub(crate) fn to_python<'py>(py: Python<'py>, element: &impl Serialize) -> PyResult<Bound<'py, PyAny>> {
     element.serialize(Writer { py }).map_err(|problem| setting("description", problem.to_string()))
+}
+
+/// A map as a 4×4 matrix for column vectors.
+pub(crate) fn matrix(map: &Transform) -> [[f64; 4]; 4] {
+    let [x, y, z, t] = map.columns;
+    let row = |axis: usize| [x[axis], y[axis], z[axis], t[axis]];
+    [row(0), row(1), row(2), [0.0, 0.0, 0.0, 1.0]]
 }
 
 /// Appends an element, or replaces one; gives its number.

@@ -12,9 +12,11 @@ pub(crate) struct FieldRays<L: Lanes> {
     origin: Vec3<L>,
     direction: Vec3<L>,
     inverse: Vec3<L>,
-    /// The box that the field fills.
-    domain: [Vec3<L>; 2],
+    /// The box that the field fills, or comes to.
+    reach: [Vec3<L>; 2],
     hottest: F<L>,
+    /// None where no field flows.
+    flow: Option<Flow<L>>,
     /// See [`FieldTable::bricks`] and [`FieldTable::coarse`].
     bricks: [U<L>; 4],
     coarse: [U<L>; 4],
@@ -22,6 +24,17 @@ pub(crate) struct FieldRays<L: Lanes> {
     colours: Option<[[U<L>; 4]; 3]>,
     /// Metres that stand for nothing: a thousandth of a cell.
     step: F<L>,
+}
+
+/// How what fields hold moves, by straight ways.
+#[derive(Clone, Copy, Debug)]
+struct Flow<L: Lanes> {
+    /// See [`FieldTable::flow`].
+    first: [U<L>; 4],
+    /// The box of the numbers.
+    domain: [Vec3<L>; 2],
+    /// The part of the shutter's time since the numbers held, 0 where nothing flows.
+    since: F<L>,
 }
 
 /// A stretch of a ray over which the density has a bound.
@@ -33,22 +46,27 @@ pub(crate) struct Cell<L: Lanes> {
     pub(crate) exit: F<L>,
 }
 
-/// Where a lattice is looked up: bricks, cells within them, and parts of a cell.
+/// Where a lattice is looked up: bricks, cells within them, and parts of a cell; whether anything is there.
 struct Place<L: Lanes> {
     brick: U<L>,
     row: U<L>,
     part: Vec3<L>,
+    holds: M<L>,
 }
 
 impl<L: Lanes> FieldRays<L> {
-    /// Rays in rebased world space.
+    /// Rays in rebased world space, at times of the shutter.
     #[inline(always)]
-    pub(crate) fn new(l: L, table: &FieldTable, field: U<L>, origin: Vec3<L>, direction: Vec3<L>) -> Self {
+    pub(crate) fn new(l: L, table: &FieldTable, field: U<L>, [origin, direction]: [Vec3<L>; 2], time: F<L>) -> Self {
         let at = field * ROW as u32;
         let rows = [0, 1, 2].map(
             #[inline(always)]
             |axis| l.gather_quads(&table.to_lattice[axis], at),
         );
+        let rows = match &table.moving {
+            Some(moving) => moving.place(field, time, rows),
+            None => rows,
+        };
         let [x, y, z] = rows.map(
             #[inline(always)]
             |[x, y, z, _]| Vec3::new(x, y, z),
@@ -56,7 +74,7 @@ impl<L: Lanes> FieldRays<L> {
         let moved = Vec3::new(rows[0][3], rows[1][3], rows[2][3]);
         let [low, high] = [0, 1].map(
             #[inline(always)]
-            |end| l.gather_quads(&table.domain[end], at),
+            |end| l.gather_quads(&table.reach[end], at),
         );
         let direction = turned([x, y, z], direction);
         Self {
@@ -64,8 +82,9 @@ impl<L: Lanes> FieldRays<L> {
             origin: turned([x, y, z], origin) + moved,
             direction,
             inverse: Vec3::new(inverse(direction.x), inverse(direction.y), inverse(direction.z)),
-            domain: [Vec3::new(low[0], low[1], low[2]), Vec3::new(high[0], high[1], high[2])],
+            reach: [Vec3::new(low[0], low[1], low[2]), Vec3::new(high[0], high[1], high[2])],
             hottest: low[3],
+            flow: if table.flows { Some(Flow::new(l, table, at, time)) } else { None },
             bricks: l.gather_integer_quads(&table.bricks, at),
             coarse: l.gather_integer_quads(&table.coarse, at),
             colours: match table.is_coloured {
@@ -94,16 +113,14 @@ impl<L: Lanes> FieldRays<L> {
     /// Whether a point is in the box.
     #[inline(always)]
     fn holds(&self, point: Vec3<L>) -> M<L> {
-        let [low, high] = self.domain;
-        let above = point.x.ge(low.x) & point.y.ge(low.y) & point.z.ge(low.z);
-        self.any() & above & point.x.le(high.x) & point.y.le(high.y) & point.z.le(high.z)
+        self.any() & is_within(point, self.reach)
     }
 
     /// The cell in which rays go on behind so many metres.
     #[inline(always)]
     pub(crate) fn cell(&self, l: L, table: &FieldTable, distance: F<L>) -> Cell<L> {
         let point = self.at(distance + self.step);
-        let ([low, high], inside) = (self.domain, self.holds(point));
+        let ([low, high], inside) = (self.reach, self.holds(point));
         let [x, y, z] = [point.x, point.y, point.z].map(
             #[inline(always)]
             |x| x.max(0.0).to_i32(),
@@ -124,7 +141,7 @@ impl<L: Lanes> FieldRays<L> {
     /// Where rays outside come into the box, infinitely far if they do not.
     #[inline(always)]
     fn entry(&self, l: L, distance: F<L>) -> F<L> {
-        let [low, high] = self.domain;
+        let [low, high] = self.reach;
         let mut range = [distance, l.f(f32::INFINITY)];
         for (low, high, origin, inverse) in [
             (low.x, high.x, self.origin.x, self.inverse.x),
@@ -138,9 +155,19 @@ impl<L: Lanes> FieldRays<L> {
     }
 
     #[inline(always)]
-    fn place(&self, distance: F<L>) -> Place<L> {
+    fn place(&self, l: L, table: &FieldTable, distance: F<L>) -> Place<L> {
         let point = self.at(distance);
-        let [low, high] = self.domain;
+        let Some(flow) = &self.flow else { return self.place_of(point, self.reach) };
+        // What is here now was a way back (semi-Lagrangian advection, as Cycles has it): by the flow here, and then by that where this leads.
+        let near = flow.back(l, table, &self.place_of(point, self.reach), point);
+        let from = flow.back(l, table, &self.place_of(near, self.reach), point);
+        let place = self.place_of(from, flow.domain);
+        Place { holds: place.holds & (is_within(from, flow.domain) | flow.first[0].eq(0)), ..place }
+    }
+
+    /// Where a point is, held within a box.
+    #[inline(always)]
+    fn place_of(&self, point: Vec3<L>, [low, high]: [Vec3<L>; 2]) -> Place<L> {
         let held = [(point.x, low.x, high.x), (point.y, low.y, high.y), (point.z, low.z, high.z)].map(
             #[inline(always)]
             |(x, low, high)| x.clamp(low, high),
@@ -155,13 +182,14 @@ impl<L: Lanes> FieldRays<L> {
         );
         let brick = number([x, y, z], LOG2_BRICK, self.bricks);
         let row = ((x & 7) * 9 + (y & 7)) * 8 + (z & 7);
-        Place { brick, row, part: Vec3::new(u, v, w) }
+        Place { brick, row, part: Vec3::new(u, v, w), holds: self.any() }
     }
 
     /// The density after so many metres.
     #[inline(always)]
     pub(crate) fn density(&self, l: L, table: &FieldTable, distance: F<L>) -> F<L> {
-        value(l, table, &self.place(distance), self.bricks[2]).keep_if(self.any())
+        let place = self.place(l, table, distance);
+        value(l, table, &place, self.bricks[2]).keep_if(place.holds)
     }
 
     /// Factors on scattering and extinction after so many metres, where the density is this.
@@ -173,10 +201,10 @@ impl<L: Lanes> FieldRays<L> {
         if !vary.any() {
             return [even; 2];
         }
-        let place = self.place(distance);
+        let place = self.place(l, table, distance);
         let [scattering, extinction] = [scattering, extinction].map(
             #[inline(always)]
-            |first| vary.select(coloured(l, table, &place, first), even),
+            |first| vary.select(coloured(l, table, &place, first).keep_if(place.holds), even),
         );
         [scattering, extinction]
     }
@@ -184,18 +212,22 @@ impl<L: Lanes> FieldRays<L> {
     /// Factor on the emission after so many metres; 0 outside.
     #[inline(always)]
     pub(crate) fn glow(&self, l: L, media: &MediumTable, distance: F<L>) -> Spectrum<L> {
-        let inside = Spectrum::constant(l.f(1.0).keep_if(self.holds(self.at(distance))));
+        let holds = match self.flow {
+            Some(_) => self.place(l, &media.fields, distance).holds,
+            None => self.holds(self.at(distance)),
+        };
+        let inside = Spectrum::constant(l.f(1.0).keep_if(holds));
         let is_hot = self.bricks[3].ne(0);
         let inside = match &self.colours {
             Some([_, _, sent]) if sent[0].ne(0).any() => {
-                inside * sent[0].ne(0).select(coloured(l, &media.fields, &self.place(distance), sent), Spectrum::one(l))
+                inside * sent[0].ne(0).select(coloured(l, &media.fields, &self.place(l, &media.fields, distance), sent), Spectrum::one(l))
             }
             _ => inside,
         };
         if !is_hot.any() {
             return inside;
         }
-        let heat = value(l, &media.fields, &self.place(distance), self.bricks[3]);
+        let heat = value(l, &media.fields, &self.place(l, &media.fields, distance), self.bricks[3]);
         let last = (GLOW - 1) as f32;
         let at = (heat / self.hottest.max(f32::MIN_POSITIVE) * last).clamp(0.0, last);
         let below = at.floor().min(last - 1.0);
@@ -203,6 +235,35 @@ impl<L: Lanes> FieldRays<L> {
         let (low, high) = (media.glow(l, row), media.glow(l, row + 1));
         inside * is_hot.select(low.lerp(high, at - below), Spectrum::one(l))
     }
+}
+
+impl<L: Lanes> Flow<L> {
+    /// That of fields by their places in the table, at times of the shutter.
+    #[inline(always)]
+    fn new(l: L, table: &FieldTable, at: U<L>, time: F<L>) -> Self {
+        let [low, high] = [0, 1].map(
+            #[inline(always)]
+            |end| l.gather_quads(&table.domain[end], at),
+        );
+        let first = l.gather_integer_quads(&table.flow, at);
+        let domain = [Vec3::new(low[0], low[1], low[2]), Vec3::new(high[0], high[1], high[2])];
+        Self { first, domain, since: (time - low[3]).keep_if(first[0].ne(0)) }
+    }
+
+    /// Where what is at a point now was when the numbers held, by the flow at a place.
+    #[inline(always)]
+    fn back(&self, l: L, table: &FieldTable, place: &Place<L>, point: Vec3<L>) -> Vec3<L> {
+        let [x, y, z, _] = self.first;
+        let flow = Vec3::new(value(l, table, place, x), value(l, table, place, y), value(l, table, place, z));
+        flow.mul_add(-self.since, point)
+    }
+}
+
+/// Whether a point is in a box.
+#[inline(always)]
+fn is_within<L: Lanes>(point: Vec3<L>, [low, high]: [Vec3<L>; 2]) -> M<L> {
+    let above = point.x.ge(low.x) & point.y.ge(low.y) & point.z.ge(low.z);
+    above & point.x.le(high.x) & point.y.le(high.y) & point.z.le(high.z)
 }
 
 /// A vector in the space whose axes these rows ask for.

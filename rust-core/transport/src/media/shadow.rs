@@ -78,13 +78,13 @@ impl OpticalDepth {
         }
     }
 
-    /// Dims what rays carry by what varies along them; those that something blocks are left.
+    /// Dims what rays carry by what varies along them; those that something blocks are left. Times are empty where nothing moves.
     #[inline(always)]
     pub fn track<L: Lanes>(
         &mut self,
         l: L,
         table: &MediumTable,
-        (origins, directions, salts): ([&[f32]; 3], [&[f32]; 3], &[u32]),
+        (origins, directions, times, salts): ([&[f32]; 3], [&[f32]; 3], &[f32], &[u32]),
         blocked: &[u8],
         carried: &mut SpectrumColumns,
     ) {
@@ -107,7 +107,8 @@ impl OpticalDepth {
                 |[x, y, z]| Vec3::new(l.gather(x, number), l.gather(y, number), l.gather(z, number)),
             );
             let way = [l.load(&ends[0], 0), l.load(&ends[1], 0)];
-            let Some(track) = Track::of(l, table, media.load(l, 0), origin, direction) else { continue };
+            let time = if times.is_empty() { l.f(0.5) } else { l.gather(times, number) };
+            let Some(track) = Track::of(l, table, media.load(l, 0), [origin, direction], time) else { continue };
             left.store(track.transmittance(way, l.first(some.len()), seed(origin, direction, way[0], l.gather_integers(salts, number))), 0);
             for (lane, ray) in ray[..some.len()].iter().enumerate() {
                 carried.multiply(*ray as usize, left, lane);

@@ -129,7 +129,7 @@ pub(crate) fn seed<L: Lanes>(origin: Vec3<L>, direction: Vec3<L>, from: F<L>, sa
 impl<L: Lanes> Part<L> {
     /// That of some rows; `None` where none of them varies.
     #[inline(always)]
-    fn new(l: L, table: &MediumTable, row: U<L>, origin: Vec3<L>, direction: Vec3<L>) -> Option<Self> {
+    fn new(l: L, table: &MediumTable, row: U<L>, ray: [Vec3<L>; 2], time: F<L>) -> Option<Self> {
         let field = table.field(l, row);
         let here = field.ne(0);
         if !here.any() {
@@ -137,7 +137,7 @@ impl<L: Lanes> Part<L> {
         }
         let extinction = table.field_extinction(l, row);
         Some(Self {
-            rays: FieldRays::new(l, &table.fields, field, origin, direction),
+            rays: FieldRays::new(l, &table.fields, field, ray, time),
             extinction,
             scattering: table.scattering(l, row).keep_if(here),
             emission: table.emission(l, row).keep_if(here),
@@ -147,21 +147,21 @@ impl<L: Lanes> Part<L> {
 }
 
 impl<'a, L: Lanes> Track<'a, L> {
-    /// Those of rays that are in some media, from their places on; `None` where nothing varies.
+    /// Those of rays that are in some media, from their places on, at times of the shutter; `None` where nothing varies.
     #[inline(always)]
-    pub(crate) fn of(l: L, table: &'a MediumTable, media: MediaSet<L>, origin: Vec3<L>, direction: Vec3<L>) -> Option<Self> {
-        if table.varies() && media.varies(table).any() { Some(Self::new(l, table, &media, &[origin, direction])) } else { None }
+    pub(crate) fn of(l: L, table: &'a MediumTable, media: MediaSet<L>, ray: [Vec3<L>; 2], time: F<L>) -> Option<Self> {
+        if table.varies() && media.varies(table).any() { Some(Self::new(l, table, &media, &(ray, time))) } else { None }
     }
 
     #[inline(never)]
-    fn new(l: L, table: &'a MediumTable, media: &MediaSet<L>, [origin, direction]: &[Vec3<L>; 2]) -> Self {
+    fn new(l: L, table: &'a MediumTable, media: &MediaSet<L>, (ray, time): &([Vec3<L>; 2], F<L>)) -> Self {
         l.vectorize(
             #[inline(always)]
             || {
                 let parts = media.rows().map(
                     #[inline(always)]
                     |row| match row {
-                        Some(row) => Part::new(l, table, row, *origin, *direction),
+                        Some(row) => Part::new(l, table, row, *ray, *time),
                         None => None,
                     },
                 );

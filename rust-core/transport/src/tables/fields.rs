@@ -3,8 +3,14 @@
 //! A brick holds the 9³ points about its cells, so that one brick serves a lookup, in 16 bits between its least and its greatest value. Two that follow
 //! each other along z share a word: four gathers are a trilinear lookup.
 
+mod moving;
+mod spread;
+
 use gonio_simd::{Column, PADDING};
+use spread::Spread;
 use std::sync::Arc;
+
+pub use moving::MovingFields;
 
 /// Cells along a brick's edge, as a power of two.
 pub(crate) const LOG2_BRICK: u32 = 3;
@@ -34,6 +40,8 @@ pub struct FieldLayout<'a> {
     pub bricks: [usize; 3],
     /// The box that it fills, lattice coordinates of 0 or more.
     pub domain: [[f32; 3]; 2],
+    /// The box that it may fill as it flows: at least the one before.
+    pub reach: [[f32; 3]; 2],
     /// The density; below 0 it counts as 0.
     pub density: &'a dyn Numbers,
     /// What the emission follows.
@@ -42,6 +50,10 @@ pub struct FieldLayout<'a> {
     pub taken: Vec<&'a dyn Numbers>,
     /// Where the colour that is sent varies, factors on it, R, G, B; else empty.
     pub sent: Vec<&'a dyn Numbers>,
+    /// Where what it holds flows, cells along x, y and z from the shutter's opening to its closing; else empty.
+    pub flow: Vec<&'a dyn Numbers>,
+    /// The time of the shutter at which all of its numbers hold.
+    pub rests: f32,
     /// Factors on the emission, evenly from heat 0 to `hottest`.
     pub glow: [[f32; 3]; GLOW],
     /// The heat of the last.
@@ -64,8 +76,16 @@ pub enum FieldRow<'a> {
 pub struct FieldTable {
     /// By axis, from rebased world space to the lattice: three factors and what is added.
     pub(crate) to_lattice: [Column; 3],
-    /// Least coordinates and the hottest heat; greatest coordinates.
+    /// Those that move, by their rows; `None` where none does.
+    pub(crate) moving: Option<MovingFields>,
+    /// Least coordinates that it reaches and the hottest heat; greatest coordinates.
+    pub(crate) reach: [Column; 2],
+    /// The same of where its numbers are, and the time at which they hold.
     pub(crate) domain: [Column; 2],
+    /// First bricks of flows along x, y and z, 0 for none, and a blank.
+    pub(crate) flow: Column<u32>,
+    /// Whether any field flows.
+    pub(crate) flows: bool,
     /// Bricks along y and z, the first brick's bounds of the density, and of the heat (0 for none).
     pub(crate) bricks: Column<u32>,
     /// Bricks along y and z of the coarse ones, the first of those, and the number of the field's glow.
@@ -109,6 +129,14 @@ impl FieldTable {
             rows[row as usize * ROW..][..ROW].copy_from_slice(&values);
         }
     }
+    /// Has fields move that this names by their rows.
+    pub fn set_moving(&mut self, moving: MovingFields) {
+        self.moving = (!moving.is_empty()).then_some(moving);
+    }
+    /// Whether any field is another at another time of the shutter.
+    pub fn moves(&self) -> bool {
+        self.flows || self.moving.is_some()
+    }
     /// Replaces the colours of all glows.
     pub(crate) fn see(&mut self, seen: impl Fn([f32; 3]) -> [f32; 3]) {
         for glow in self.glow.chunks_exact_mut(ROW) {
@@ -128,7 +156,9 @@ impl FieldTable {
 /// A table that grows.
 struct Layout {
     to_lattice: [Vec<f32>; 3],
+    reach: [Vec<f32>; 2],
     domain: [Vec<f32>; 2],
+    flow: Vec<u32>,
     bricks: Vec<u32>,
     coarse: Vec<u32>,
     colours: [Vec<u32>; 3],
@@ -143,7 +173,9 @@ impl Default for Layout {
         // An empty field of one brick; word 0 is that of all even bricks.
         Self {
             to_lattice: [0; 3].map(|_| vec![0.0; ROW]),
+            reach: [vec![0.0; ROW], vec![0.0; ROW]],
             domain: [vec![0.0; ROW], vec![0.0; ROW]],
+            flow: vec![0; ROW],
             bricks: vec![1, 1, 0, 0],
             coarse: vec![1, 1, 0, 0],
             colours: [0; 3].map(|_| vec![0; ROW]),
@@ -158,17 +190,26 @@ impl Default for Layout {
 impl Layout {
     fn add(&mut self, field: &FieldLayout<'_>) {
         self.to_lattice.iter_mut().for_each(|rows| rows.extend([0.0; ROW]));
-        let [[x, y, z], [a, b, c]] = field.domain;
-        self.domain[0].extend([x, y, z, field.hottest]);
-        self.domain[1].extend([a, b, c, 0.0]);
+        for (rows, boxes, last) in [(&mut self.reach, field.reach, [field.hottest, 0.0]), (&mut self.domain, field.domain, [field.rests, 0.0])] {
+            for (row, ([x, y, z], last)) in rows.iter_mut().zip(boxes.into_iter().zip(last)) {
+                row.extend([x, y, z, last]);
+            }
+        }
         let [_, ny, nz] = field.bricks.map(|n| n as u32);
-        let density = self.numbers(field.bricks, field.density);
-        let heat = field.heat.map_or(0, |heat| self.numbers(field.bricks, heat));
+        let density = self.numbers(field.bricks, field.density, 0.0);
+        let heat = field.heat.map_or(0, |heat| self.numbers(field.bricks, heat, 0.0));
         self.bricks.extend([ny, nz, density, heat]);
         let all = [field.taken.get(..3), field.taken.get(3..), field.sent.get(..)].map(Option::unwrap_or_default);
-        let colours = all.map(|all| [0, 1, 2].map(|part| all.get(part).map_or(0, |numbers| self.numbers(field.bricks, *numbers))));
+        let colours = all.map(|all| [0, 1, 2].map(|part| all.get(part).map_or(0, |numbers| self.numbers(field.bricks, *numbers, 0.0))));
         for (rows, [r, g, b]) in self.colours.iter_mut().zip(colours) {
             rows.extend([r, g, b, 0]);
+        }
+        let flow = [0, 1, 2].map(|axis| field.flow.get(axis).map_or(0, |numbers| self.numbers(field.bricks, *numbers, f32::MIN)));
+        self.flow.extend([flow[0], flow[1], flow[2], 0]);
+        if flow[0] != 0 {
+            let spread = Spread { bricks: field.bricks, flow, times: [-field.rests, 1.0 - field.rests] };
+            let of_light = colours[2].into_iter().filter(|first| *first != 0);
+            [density, heat].into_iter().filter(|first| *first != 0).chain(of_light).for_each(|first| spread.apply(first, &mut self.bounds));
         }
         let coarse = field.bricks.map(|n| n.div_ceil(1 << LOG2_COARSE));
         let first = self.filled.len();
@@ -187,20 +228,22 @@ impl Layout {
     /// Adds a field with the numbers of one before.
     fn repeat(&mut self, row: usize) {
         let row = row * ROW..(row + 1) * ROW;
-        self.to_lattice.iter_mut().chain(&mut self.domain).for_each(|rows| rows.extend_from_within(row.clone()));
+        let floats = self.to_lattice.iter_mut().chain(&mut self.reach).chain(&mut self.domain);
+        floats.for_each(|rows| rows.extend_from_within(row.clone()));
+        self.flow.extend_from_within(row.clone());
         self.bricks.extend_from_within(row.clone());
         self.colours.iter_mut().for_each(|rows| rows.extend_from_within(row.clone()));
         self.coarse.extend_from_within(row);
     }
 
-    /// Adds the bricks of a lattice and gives the number of the first.
-    fn numbers(&mut self, bricks: [usize; 3], numbers: &dyn Numbers) -> u32 {
+    /// Adds the bricks of a lattice, whose numbers count as `lowest` below that, and gives the number of the first.
+    fn numbers(&mut self, bricks: [usize; 3], numbers: &dyn Numbers, lowest: f32) -> u32 {
         let first = self.bounds.len() / ROW;
         let mut points = [0.0; POINTS * POINTS * POINTS];
         for brick in places(bricks) {
             let row = match numbers.brick(brick, &mut points) {
-                Some(value) => [value.max(0.0), 0.0, value.max(0.0), f32::from_bits(0)],
-                None => self.brick(&mut points),
+                Some(value) => [value.max(lowest), 0.0, value.max(lowest), f32::from_bits(0)],
+                None => self.brick(&mut points, lowest),
             };
             self.bounds.extend(row);
         }
@@ -208,9 +251,9 @@ impl Layout {
     }
 
     /// Adds a brick's words and gives its bounds.
-    fn brick(&mut self, points: &mut [f32; POINTS * POINTS * POINTS]) -> [f32; ROW] {
-        points.iter_mut().for_each(|point| *point = point.max(0.0));
-        let (least, most) = points.iter().fold((f32::MAX, 0.0f32), |(least, most), point| (least.min(*point), most.max(*point)));
+    fn brick(&mut self, points: &mut [f32; POINTS * POINTS * POINTS], lowest: f32) -> [f32; ROW] {
+        points.iter_mut().for_each(|point| *point = point.max(lowest));
+        let (least, most) = points.iter().fold((f32::MAX, lowest), |(least, most), point| (least.min(*point), most.max(*point)));
         if least == most {
             return [least, 0.0, most, f32::from_bits(0)];
         }
@@ -225,7 +268,11 @@ impl Layout {
     fn table(self) -> FieldTable {
         FieldTable {
             to_lattice: self.to_lattice.map(|rows| column(&rows)),
+            moving: None,
+            reach: self.reach.map(|rows| column(&rows)),
             domain: self.domain.map(|rows| column(&rows)),
+            flows: self.flow.iter().any(|first| *first != 0),
+            flow: column(&self.flow),
             bricks: column(&self.bricks),
             coarse: column(&self.coarse),
             is_coloured: self.colours.iter().flatten().any(|first| *first != 0),

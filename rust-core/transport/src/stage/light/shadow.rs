@@ -175,7 +175,7 @@ fn attenuate<L: Lanes>(l: L, tables: &Tables, shadows: &mut ShadowRays, trace: &
         shadows.contribution.store(shadows.contribution.load(l, at) * left, at);
     }
     if tables.materials.media.varies() {
-        let rays = (slices(&shadows.rays.origin), slices(&shadows.rays.direction), &*shadows.salt);
+        let rays = (slices(&shadows.rays.origin), slices(&shadows.rays.direction), &*shadows.rays.time, &*shadows.salt);
         trace.depth.track(l, &tables.materials.media, rays, &trace.blocked, &mut shadows.contribution);
     }
 }

@@ -22,6 +22,7 @@ pub(super) struct Way<L: Lanes> {
     pub(super) at: usize,
     pub(super) origin: Vec3<L>,
     pub(super) direction: Vec3<L>,
+    pub(super) time: F<L>,
     /// Metres from the origin at which it begins, and how many it is long.
     pub(super) from: F<L>,
     pub(super) length: F<L>,
@@ -62,6 +63,7 @@ impl<L: Lanes> Way<L> {
             at,
             origin: load3(l, &paths.rays.origin, at),
             direction: cone.direction,
+            time: paths.rays.times(l, path),
             from,
             length: (end - from).clamp(0.0, FAR),
             core,
@@ -78,7 +80,7 @@ impl<L: Lanes> Way<L> {
     /// The media along it that vary.
     #[inline(always)]
     pub(super) fn track<'a>(&self, table: &'a MediumTable) -> Option<Track<'a, L>> {
-        Track::of(self.pdf.lanes(), table, self.core.media, self.origin, self.direction)
+        Track::of(self.pdf.lanes(), table, self.core.media, [self.origin, self.direction], self.time)
     }
 
     /// What even media leave of light after so many metres of it.
