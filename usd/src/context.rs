@@ -7,7 +7,7 @@ use crate::options::StageOptions;
 use crate::prim::{Attribute, Prim};
 use crate::pxr;
 use crate::roles::Roles;
-use crate::volume::GridCache;
+use crate::volume::{Flows, GridCache};
 use crate::vt::FromValue;
 use gonio::scene::{Goniogram, MaterialId, MeasuredId, Origin, Scene, TextureId};
 use gonio::{Diagnostic, Error, Result};
@@ -65,6 +65,8 @@ pub struct Context<'a, 'py> {
     pub(crate) volume_shadings: HashMap<String, Option<Rc<VolumeShading>>>,
     /// Grids of volumes.
     pub(crate) grids: GridCache,
+    /// Fields of the scene that have velocities.
+    pub(crate) flows: Flows,
     /// Textures by a key of the material reader's choice.
     pub texture_ids: HashMap<String, TextureId>,
     /// What MaterialX documents of the stage define for themselves.
@@ -112,6 +114,7 @@ impl<'a, 'py> Context<'a, 'py> {
             shaded: Shaded::default(),
             volume_shadings: HashMap::new(),
             grids: GridCache::default(),
+            flows: Flows::default(),
             texture_ids: HashMap::new(),
             material_definitions: Vec::new(),
             measured_ids: HashMap::new(),

@@ -3,10 +3,12 @@
 //! So everything that depends on time is blurred alike: transformations, point instancers with their velocities, skinned and sampled points.
 
 use crate::prim::Prim;
+use crate::volume::Exposure;
 use gonio::Diagnostic;
-use gonio::scene::{Instances, Light, Mesh, MeshId, MeshKey, Origin, PointKey, Scene, Transform};
+use gonio::scene::{Field, FieldId, Instances, Lattice, Light, Mesh, MeshId, MeshKey, Origin, PointKey, Scene, Transform};
 use pyo3::prelude::*;
-use std::collections::HashSet;
+use std::collections::HashMap;
+use std::sync::Arc;
 
 /// Samples over the shutter where the stage names no number: turns are even between two of them.
 const KEYS: usize = 3;
@@ -16,6 +18,8 @@ const MOST_KEYS: usize = 65;
 /// When the shutter is open, and at how many times the stage is looked at.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Shutter {
+    frame: f64,
+    /// From the frame on.
     open: f64,
     close: f64,
     keys: usize,
@@ -25,24 +29,29 @@ impl Shutter {
     /// The time codes of the keys.
     pub(crate) fn times(&self) -> Vec<f64> {
         let share = |key: usize| key as f64 / (self.keys - 1) as f64;
-        (0..self.keys).map(|key| self.open + share(key) * (self.close - self.open)).collect()
+        (0..self.keys).map(|key| self.frame + self.open + share(key) * (self.close - self.open)).collect()
+    }
+
+    /// When it is open, seconds from the frame on.
+    pub(crate) fn exposure(&self, codes_a_second: f64) -> Exposure {
+        Exposure { open: self.open / codes_a_second, close: self.close / codes_a_second }
     }
 }
 
-/// The shutter of a camera at a frame; `None` where it opens and closes at once, or nothing of the stage has samples in time.
-pub(crate) fn shutter(stage: &Bound<'_, PyAny>, camera: &Prim<'_>, frame: f64) -> PyResult<Option<Shutter>> {
+/// The shutter of a camera at a frame; `None` where it opens and closes at once, or nothing of the stage flows or has samples in time.
+pub(crate) fn shutter(stage: &Bound<'_, PyAny>, camera: &Prim<'_>, frame: f64, flows: bool) -> PyResult<Option<Shutter>> {
     let number = |name: &str| -> PyResult<f64> {
         let Some(attribute) = camera.attribute(name) else { return Ok(0.0) };
         let value = attribute.object().call_method1("Get", (frame,))?;
         Ok(value.extract::<f64>().ok().filter(|x| x.is_finite()).unwrap_or(0.0))
     };
     let (open, close) = (number("shutter:open")?, number("shutter:close")?);
-    if close <= open || !is_sampled(stage)? {
+    if close <= open || !(flows || is_sampled(stage)?) {
         return Ok(None);
     }
     let keys = camera.attribute("motion:nonlinearSampleCount").map(|attribute| attribute.object().call_method1("Get", (frame,)));
     let keys = keys.transpose()?.and_then(|count| count.extract::<usize>().ok()).unwrap_or(KEYS);
-    Ok(Some(Shutter { open: frame + open, close: frame + close, keys: keys.clamp(2, MOST_KEYS) }))
+    Ok(Some(Shutter { frame, open, close, keys: keys.clamp(2, MOST_KEYS) }))
 }
 
 /// The frames before and after a time, in place of a shutter's opening and closing; `None` where nothing of the stage has samples in time.
@@ -51,7 +60,7 @@ pub(crate) fn neighbours(stage: &Bound<'_, PyAny>, time: &Bound<'_, PyAny>) -> P
         return Ok(None);
     }
     let frame: f64 = time.call_method0("GetValue")?.extract()?;
-    Ok(Some(Shutter { open: frame - 1.0, close: frame + 1.0, keys: 2 }))
+    Ok(Some(Shutter { frame, open: -1.0, close: 1.0, keys: 2 }))
 }
 
 /// Whether any layer of the stage has values that change.
@@ -82,22 +91,29 @@ pub(crate) fn put(scene: &mut Scene, keys: &[Scene]) -> Vec<Diagnostic> {
     }
     let volumes = volumes(scene);
     for (number, set) in scene.instances.iter_mut().enumerate() {
-        let is_volume = set.geometry.mesh().is_some_and(|mesh| volumes.contains(&mesh));
+        let field = set
+            .geometry
+            .mesh()
+            .and_then(|mesh| volumes.get(&mesh))
+            .and_then(|id| scene.fields.get(id.index()).map(|field| (id.index(), field)));
         let like = |key: &Scene| {
             let other = key.instances.get(number)?;
             (other.origin.name == set.origin.name && other.transforms.len() == set.transforms.len()).then(|| other.transforms.clone())
         };
+        if field.is_some_and(|(id, field)| keys.iter().any(|key| !key.fields.get(id).is_some_and(|other| is_like(field, other)))) {
+            told.push(Diagnostic::warning(
+                &set.origin,
+                "the volume's grids are others at other times of the shutter; they are those of the frame, and are not blurred",
+            ));
+            continue;
+        }
         match keys.iter().map(like).collect::<Option<Vec<Vec<Transform>>>>() {
             Some(found) if found.iter().all(|key| *key == found[0]) => {}
-            _ if is_volume => told.push(Diagnostic::warning(
-                &set.origin,
-                "the volume changes or moves while the shutter is open; it is that of the frame, and is not blurred",
-            )),
             Some(found) => set.motion = found,
             None => told.push(Diagnostic::warning(&set.origin, still)),
         }
     }
-    for (number, mesh) in scene.meshes.iter_mut().enumerate().filter(|(number, _)| !volumes.contains(&MeshId(*number as u32))) {
+    for (number, mesh) in scene.meshes.iter_mut().enumerate().filter(|(number, _)| !volumes.contains_key(&MeshId(*number as u32))) {
         match keys.iter().map(|key| mesh_key(mesh, key.meshes.get(number)?)).collect::<Option<Vec<MeshKey>>>() {
             Some(found) if found.iter().any(|key| *key != found[0]) => mesh.motion = found,
             Some(_) => {}
@@ -123,13 +139,21 @@ pub(crate) fn put(scene: &mut Scene, keys: &[Scene]) -> Vec<Diagnostic> {
     told
 }
 
-/// The boxes of volumes, whose fields stand still.
-fn volumes(scene: &Scene) -> HashSet<MeshId> {
-    let is_volume = |set: &&Instances| {
+/// The boxes of volumes, which keep their form, with their fields.
+fn volumes(scene: &Scene) -> HashMap<MeshId, FieldId> {
+    let field = |set: &Instances| {
         let mut materials = set.materials.iter().filter_map(|material| scene.materials.get(material.index()));
-        materials.any(|material| material.medium.field.is_some())
+        Some((set.geometry.mesh()?, materials.find_map(|material| material.medium.field)?))
     };
-    scene.instances.iter().filter(is_volume).filter_map(|set| set.geometry.mesh()).collect()
+    scene.instances.iter().filter_map(field).collect()
+}
+
+/// Whether two fields are of the same grid.
+fn is_like(field: &Field, other: &Field) -> bool {
+    let same = |a: &Lattice, b: &Lattice| {
+        a.domain == b.domain && (Arc::ptr_eq(&a.values, &b.values) || (a.bricks == b.bricks && a.values == b.values))
+    };
+    field.lattices().count() == other.lattices().count() && field.lattices().zip(other.lattices()).all(|(a, b)| same(a, b))
 }
 
 /// Gives a light whose strength changes the mean of it over the shutter, which is right for what stands still.

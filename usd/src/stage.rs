@@ -21,7 +21,7 @@ use crate::pxr::{Module, Trap};
 use crate::render_settings::RenderSettings;
 use crate::settings;
 use crate::traverse::Walker;
-use crate::volume::GridCache;
+use crate::volume::{self, Flows, GridCache};
 use crate::watch::Reading;
 use crate::{material, motion, place, pxr, render_pass, skeleton};
 use gonio::scene::{HAZE_ANISOTROPY, Medium, Scene, VISIBILITY_CONTRAST};
@@ -52,6 +52,8 @@ pub struct Loaded {
     pub kept_shapes: usize,
     /// The IES and EULUMDAT files that its lights name.
     pub luminaires: Vec<LuminaireFile>,
+    /// Fields of the scene that have velocities.
+    pub flows: Flows,
 }
 
 /// An open stage; it can be read at many times.
@@ -183,7 +185,7 @@ impl Stage {
     /// Where nothing is blurred and motion vectors are asked for, with where it is at the frames before and after.
     fn blurred(&self, py: Python<'_>, options: &StageOptions, cancel: &AtomicBool, mut loaded: Loaded) -> Result<Loaded> {
         let asked = options.with_settings(loaded.settings.as_ref());
-        let shutter = if asked.disable_motion_blur { Ok(None) } else { self.shutter(py, options, &loaded.scene) };
+        let shutter = if asked.disable_motion_blur { Ok(None) } else { self.shutter(py, options, &loaded) };
         let mut shutter = shutter.map_err(|error| unreadable(py, &self.path, &error))?;
         if shutter.is_none() && asked.motion_vectors {
             loaded.scene.settings.shutter.blur = false;
@@ -197,10 +199,14 @@ impl Stage {
             keys.push(self.read(py, &at_key, cancel)?.scene);
         }
         loaded.diagnostics.extend(motion::put(&mut loaded.scene, &keys));
+        if loaded.scene.settings.shutter.blur && !loaded.flows.is_empty() {
+            let exposure = shutter.exposure(self.info.time_codes_per_second);
+            loaded.diagnostics.extend(volume::put_flows(py, &mut loaded.scene, &loaded.flows, exposure));
+        }
         Ok(loaded)
     }
 
-    fn shutter(&self, py: Python<'_>, options: &StageOptions, scene: &Scene) -> PyResult<Option<motion::Shutter>> {
+    fn shutter(&self, py: Python<'_>, options: &StageOptions, Loaded { scene, flows, .. }: &Loaded) -> PyResult<Option<motion::Shutter>> {
         let Some(camera) = scene.cameras.get(scene.settings.camera as usize) else { return Ok(None) };
         let time = time_code(py, self.info.time_range, options.time)?;
         let stage = self.object.bind(py);
@@ -208,7 +214,7 @@ impl Stage {
         if !time.call_method0("IsNumeric")?.is_truthy()? || !prim.is_valid() {
             return Ok(None);
         }
-        motion::shutter(stage, &prim, time.call_method0("GetValue")?.extract()?)
+        motion::shutter(stage, &prim, time.call_method0("GetValue")?.extract()?, !flows.is_empty())
     }
 
     fn take_kept(&self) -> Option<Kept> {
@@ -270,7 +276,7 @@ impl Stage {
         let mut info = self.info.clone();
         info.prim_counts = context.prim_counts.iter().map(|(name, count)| (name.clone(), *count)).collect();
         let luminaires = std::mem::take(&mut context.luminaires);
-        let waited_for_meshes = context.waited_for_meshes;
+        let (waited_for_meshes, flows) = (context.waited_for_meshes, std::mem::take(&mut context.flows));
         let (mut scene, of_world) = context.finish();
         diagnostics.extend(of_world);
         if let Some(visibility) = options.haze {
@@ -281,7 +287,7 @@ impl Stage {
         let camera = wanted.and_then(|path| scene.cameras.iter().position(|camera| *camera.origin.name == *path));
         scene.settings.camera = camera.unwrap_or(0) as u32;
         scene.settings.spectral = options.spectral;
-        Ok(Loaded { scene, diagnostics, info, settings, waited_for_meshes, kept_shapes, luminaires })
+        Ok(Loaded { scene, diagnostics, info, settings, waited_for_meshes, kept_shapes, luminaires, flows })
     }
 }
 

@@ -5,11 +5,14 @@
 
 mod curves;
 mod fill;
+mod flow;
 mod grid;
 mod placed;
 mod read;
 
 pub(crate) use fill::{Filling, fill};
+pub use flow::Flows;
+pub(crate) use flow::{Exposure, put as put_flows};
 pub(crate) use grid::GridCache;
 pub(crate) use placed::{PlacedVolume, add_all, naming};
 pub(crate) use read::read;

@@ -8,7 +8,7 @@ use gonio::map::FaceTable;
 use gonio::scene::{HAZE_ANISOTROPY, Material, Medium, Origin, Transform, VISIBILITY_CONTRAST};
 use gonio::{Error, Result, Severity};
 use gonio_models::{DEFAULT_SKY_LUX, Model, Options, add_default_sky};
-use gonio_usd::{CameraInfo, Loaded, LuminaireFile, SampleTime, StageInfo, StageOptions, context::UpAxis};
+use gonio_usd::{CameraInfo, Loaded, LuminaireFile, SampleTime, StageInfo, StageOptions, context::UpAxis, volume::Flows};
 use pyo3::Python;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -169,6 +169,7 @@ fn loaded(model: Model) -> Loaded {
         waited_for_meshes: Duration::ZERO,
         kept_shapes: 0,
         luminaires,
+        flows: Flows::default(),
     }
 }
 

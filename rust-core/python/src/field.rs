@@ -1,7 +1,7 @@
 //! Fields of media in Python: arrays, or grids of OpenVDB's and NanoVDB's files.
 
 use crate::{buffer::floats, error::setting};
-use gonio::scene::{COLOURS, Field, Flow, GridNames, Lattice};
+use gonio::scene::{COLOURS, Field, Flow, Lattice, Transform};
 use pyo3::{exceptions::PyValueError, prelude::*};
 use std::path::PathBuf;
 
@@ -14,19 +14,32 @@ pub(crate) enum Source<'py> {
     Array(Bound<'py, PyAny>),
 }
 
-/// How what a field holds moves, and the time of the shutter at which its numbers hold.
-pub(crate) struct Moving<'py> {
-    pub(crate) flow: Option<FlowSource<'py>>,
-    pub(crate) rests: f32,
-}
-
 /// Where a flow comes from.
 #[derive(FromPyObject)]
 pub(crate) enum FlowSource<'py> {
-    /// Names of grids of the file, and the time that the shutter is open.
-    Grids(Vec<String>, f64),
+    /// A file, the names of its grids, and how long the shutter is open in their unit of time.
+    File(PathBuf, Vec<String>, f64),
     /// An array (nx, ny, nz, 3), and what makes voxels of it along each axis.
     Array(Bound<'py, PyAny>, [f32; 3]),
+}
+
+/// How what a field holds moves; `to_world` is the map that it was put with.
+pub(crate) fn flow(py: Python<'_>, field: &Field, to_world: &Transform, source: &FlowSource<'_>, rests: f32) -> PyResult<Option<Flow>> {
+    match source {
+        FlowSource::File(path, names, time) => {
+            let Some(to_file) = to_world.inverse().map(|back| back.after(&field.to_world)) else { return Ok(None) };
+            let found = py.detach(|| Flow::read(path, names, (&field.density, &to_file), *time, rests));
+            found.map(Some).map_err(|problem| setting(&field.origin.to_string(), problem))
+        }
+        FlowSource::Array(array, voxels) => {
+            let mut ways = coloured(py, field, Some(array), "flow", 3)?;
+            for (way, factor) in ways.iter_mut().zip(voxels) {
+                way.values = way.values.iter().map(|x| x * factor).collect();
+                way.block_values = way.block_values.iter().map(|x| x * factor).collect();
+            }
+            Ok(ways.try_into().ok().map(|cells| Flow::new(cells, rests)))
+        }
+    }
 }
 
 /// A described field with its numbers; `colours` are arrays with a last axis of so many components, extinction and scattering, and emission.
@@ -35,25 +48,13 @@ pub(crate) fn filled(
     described: Field,
     (density, heat): (&Source<'_>, Option<&Source<'_>>),
     colours: [Option<Bound<'_, PyAny>>; 2],
-    moving: &Moving<'_>,
 ) -> PyResult<Field> {
-    let name = described.origin.to_string();
-    let told = |problem: String| setting(&name, problem);
+    let told = |problem: String| setting(&described.origin.to_string(), problem);
     let Field { origin, to_world, glow, hottest, .. } = described.clone();
-    let names = |density: &String, heat: Option<&String>| match &moving.flow {
-        Some(FlowSource::Grids(velocity, time)) => {
-            GridNames { density: density.clone(), heat: heat.cloned(), velocity: velocity.clone(), shutter: (*time, moving.rests) }
-        }
-        _ => GridNames { density: density.clone(), heat: heat.cloned(), ..GridNames::default() },
-    };
     let mut field = match (density, heat) {
-        (Source::File(path, name), None) => {
-            let names = names(name, None);
-            py.detach(|| Field::read(origin, path, &names, &to_world)).map_err(told)?
-        }
+        (Source::File(path, name), None) => py.detach(|| Field::read(origin, path, name, None, &to_world)).map_err(told)?,
         (Source::File(path, name), Some(Source::File(other, heat))) if path == other => {
-            let names = names(name, Some(heat));
-            py.detach(|| Field::read(origin, path, &names, &to_world)).map_err(told)?
+            py.detach(|| Field::read(origin, path, name, Some(heat), &to_world)).map_err(told)?
         }
         (Source::Array(density), heat) => {
             let density = lattice(py, density, "density")?;
@@ -72,20 +73,6 @@ pub(crate) fn filled(
     let [taken, sent] = colours;
     field.taken = coloured(py, &field, taken.as_ref(), "taken", COLOURS[0])?;
     field.sent = coloured(py, &field, sent.as_ref(), "sent", COLOURS[1])?;
-    match &moving.flow {
-        Some(FlowSource::Array(array, voxels)) => {
-            let mut ways = coloured(py, &field, Some(array), "flow", 3)?;
-            for (way, factor) in ways.iter_mut().zip(voxels) {
-                way.values = way.values.iter().map(|x| x * factor).collect();
-                way.block_values = way.block_values.iter().map(|x| x * factor).collect();
-            }
-            field.flow = ways.try_into().ok().map(|cells| Flow::new(cells, moving.rests));
-        }
-        Some(FlowSource::Grids(..)) if field.flow.is_none() => {
-            return Err(told("its flow is by grids of a file, its density is to be one of that".into()));
-        }
-        _ => {}
-    }
     field.glow = glow;
     field.hottest = if hottest > 0.0 { hottest } else { field.heat.as_ref().map_or(0.0, Lattice::most) };
     Ok(field)

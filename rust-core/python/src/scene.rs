@@ -73,6 +73,16 @@ fn matte_names(name: &str, asset: &str) -> Vec<MatteName> {
     if asset.is_empty() { Vec::new() } else { vec![named()] }
 }
 
+impl Scene {
+    fn field_of(&self, field: u32) -> PyResult<&scene::Field> {
+        let count = self.scene.fields.len();
+        self.scene
+            .fields
+            .get(field as usize)
+            .ok_or_else(|| PyValueError::new_err(format!("field {field} was asked for, the scene has {count}")))
+    }
+}
+
 #[pymethods]
 impl Scene {
     /// An empty scene.
@@ -363,11 +373,7 @@ impl Scene {
     ///
     /// Where colours vary, `taken` is an array (nx, ny, nz, 6) of factors on the medium's extinction, R, G, B, and on its scattering, of which the
     /// density is at least the greatest; `sent` (nx, ny, nz, 3) has factors on its emission, in place of the heat.
-    ///
-    /// `flow` is how what is there moves from time 0 of the shutter to time 1, and `rests` the time at which the numbers hold: an array (nx, ny, nz, 3)
-    /// with three factors that make voxels of it; or for a file the names of its grid of velocities, or of three for x, y and z, with how long the
-    /// shutter is open in their unit of time.
-    #[pyo3(signature = (description, index = None, *, density, heat = None, taken = None, sent = None, flow = None, rests = 0.5))]
+    #[pyo3(signature = (description, index = None, *, density, heat = None, taken = None, sent = None))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn put_field(
         &mut self,
@@ -378,29 +384,42 @@ impl Scene {
         heat: Option<field::Source<'_>>,
         taken: Option<Bound<'_, PyAny>>,
         sent: Option<Bound<'_, PyAny>>,
-        flow: Option<field::FlowSource<'_>>,
-        rests: f32,
     ) -> PyResult<u32> {
         let described = description::read(description, "field")?;
-        let field = field::filled(py, described, (&density, heat.as_ref()), [taken, sent], &field::Moving { flow, rests })?;
+        let field = field::filled(py, described, (&density, heat.as_ref()), [taken, sent])?;
         description::put(&mut self.scene.fields, "field", field, index)
     }
 
     /// Adds the box about a field as a mesh, or replaces mesh `index`; gives its number, and the map that places it, a 4×4 matrix for column vectors.
     #[pyo3(signature = (field, index = None))]
     fn put_field_box(&mut self, field: u32, index: Option<u32>) -> PyResult<(u32, [[f64; 4]; 4])> {
-        let count = self.scene.fields.len();
-        let wrong = || PyValueError::new_err(format!("field {field} was asked for, the scene has {count}"));
-        let field = self.scene.fields.get(field as usize).ok_or_else(wrong)?;
-        let place = description::matrix(&field.to_world);
-        Ok((description::put(&mut self.scene.meshes, "mesh", field.mesh(), index)?, place))
+        let field = self.field_of(field)?;
+        let (place, mesh) = (description::matrix(&field.to_world), field.mesh());
+        Ok((description::put(&mut self.scene.meshes, "mesh", mesh, index)?, place))
+    }
+
+    /// Has what a field holds flow while the shutter is open, from time 0 to time 1; its numbers hold at `rests`. `to_world` is the map that it was put
+    /// with.
+    ///
+    /// `flow` is an array (nx, ny, nz, 3) as large as the density with three factors that make voxels of it; or a file, the names of its grid of
+    /// velocities or of three for x, y and z, and how long the shutter is open in their unit of time. The box about it is to be put anew.
+    fn put_flow(
+        &mut self,
+        py: Python<'_>,
+        field: u32,
+        to_world: &Bound<'_, PyDict>,
+        flow: field::FlowSource<'_>,
+        rests: f32,
+    ) -> PyResult<()> {
+        let to_world: scene::Transform = description::read(to_world, "transform")?;
+        let found = field::flow(py, self.field_of(field)?, &to_world, &flow, rests)?;
+        self.scene.fields[field as usize].flow = found;
+        Ok(())
     }
 
     /// Where a field lies when the map `to_world`, which it was put with, is one of `keys` instead: 4×4 matrices for column vectors.
     fn field_places(&self, field: u32, to_world: &Bound<'_, PyDict>, keys: Vec<Bound<'_, PyDict>>) -> PyResult<Vec<[[f64; 4]; 4]>> {
-        let count = self.scene.fields.len();
-        let wrong = || PyValueError::new_err(format!("field {field} was asked for, the scene has {count}"));
-        let field = self.scene.fields.get(field as usize).ok_or_else(wrong)?;
+        let field = self.field_of(field)?;
         let to_world: scene::Transform = description::read(to_world, "transform")?;
         let Some(back) = to_world.inverse() else { return Ok(Vec::new()) };
         let place = |key: &Bound<'_, PyDict>| {

@@ -150,19 +150,6 @@ pub struct Field {
     pub flow: Option<Flow>,
 }
 
-/// Names of the grids of a file that make a field.
-#[derive(Clone, Debug, Default)]
-pub struct GridNames {
-    /// The density.
-    pub density: String,
-    /// What the emission follows.
-    pub heat: Option<String>,
-    /// Velocities in the file's space: one grid of vectors, three of one component each, or none.
-    pub velocity: Vec<String>,
-    /// How long the shutter is open, in the velocities' unit of time, and its time at which the numbers hold.
-    pub shutter: (f64, f32),
-}
-
 /// Lattices of [`Field::taken`] and of [`Field::sent`], where there are any.
 pub const COLOURS: [usize; 2] = [6, 3];
 
@@ -171,12 +158,12 @@ impl Field {
     ///
     /// # Errors
     ///
-    /// If the file cannot be read, has no such grid, or density and heat lie on different lattices.
-    pub fn read(origin: Origin, path: &Path, names: &GridNames, to_world: &Transform) -> Result<Self, String> {
+    /// If the file cannot be read, has no such grid, or the two grids lie on different lattices.
+    pub fn read(origin: Origin, path: &Path, density: &str, heat: Option<&str>, to_world: &Transform) -> Result<Self, String> {
         let file = open(path).map_err(|error| error.to_string())?;
         let grid = |name: &str| file.read_named(name).map_err(|error| error.to_string());
-        let density = grid(&names.density)?;
-        let heat = names.heat.as_deref().map(grid).transpose()?;
+        let density = grid(density)?;
+        let heat = heat.map(grid).transpose()?;
         if let Some(heat) = heat.as_ref().filter(|heat| heat.transform != density.transform) {
             return Err(format!("the grids '{}' and '{}' have voxels of different places or sizes; resample one", density.name, heat.name));
         }
@@ -184,10 +171,7 @@ impl Field {
         let heat = heat.map(|grid| Lattice::of_grid(&grid, None)).transpose()?;
         let hottest = heat.as_ref().map_or(0.0, Lattice::most);
         let density = Lattice::of_grid(&density, None)?;
-        let velocity = names.velocity.iter().map(|name| grid(name)).collect::<Result<Vec<_>, _>>()?;
-        let of_grids = || Flow::of_grids(&velocity, (&density, &inner), names.shutter.0, names.shutter.1);
-        let flow = if velocity.is_empty() { None } else { Some(of_grids()?) };
-        Ok(Self { origin, to_world: to_world.after(&inner), density, heat, hottest, flow, ..Self::default() })
+        Ok(Self { origin, to_world: to_world.after(&inner), density, heat, hottest, ..Self::default() })
     }
 
     /// Whether both are the same but for their names and where they lie.

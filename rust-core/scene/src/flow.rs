@@ -1,9 +1,9 @@
 //! Flows: how what fields hold moves while the shutter is open, by straight ways.
 
 use super::{Lattice, Transform};
-use gonio_volume::{BRICK_EDGE, BRICK_VOXELS, Grid, Sampler};
+use gonio_volume::{BRICK_EDGE, BRICK_VOXELS, Grid, Sampler, Storage, open};
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeSet;
+use std::{collections::BTreeSet, path::Path};
 
 /// The flow of a field.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -23,8 +23,21 @@ const MOST_BESIDE: i32 = 4;
 impl Flow {
     /// That of cells along x, y and z of the field's lattice.
     pub fn new(cells: [Lattice; 3], rests: f32) -> Self {
-        let most = cells.each_ref().map(|lattice| lattice.values.iter().chain(&*lattice.block_values).fold(0.0f32, |most, x| most.max(x.abs())));
+        let most =
+            cells.each_ref().map(|lattice| lattice.values.iter().chain(&*lattice.block_values).fold(0.0f32, |most, x| most.max(x.abs())));
         Self { cells, rests, most }
+    }
+
+    /// The same by a file's grids, which [`Flow::of_grids`] takes, by their names.
+    ///
+    /// # Errors
+    ///
+    /// If the file cannot be read, has no such grids, or they are of no use.
+    pub fn read(path: &Path, names: &[String], field: (&Lattice, &Transform), time: f64, rests: f32) -> Result<Self, String> {
+        let file = open(path).map_err(|error| error.to_string())?;
+        let grids: Result<Vec<Grid>, _> = names.iter().map(|name| file.read_named(name)).collect();
+        let grids = grids.map_err(|error| error.to_string())?;
+        Self::of_grids(&grids, field, time, rests).map_err(|problem| format!("{}: {problem}", path.display()))
     }
 
     /// That of a field whose lattice this is, with the map from there to the file's space, by a grid of velocities in that space or by three of one
@@ -36,6 +49,11 @@ impl Flow {
     pub fn of_grids(velocity: &[Grid], (field, to_file): (&Lattice, &Transform), time: f64, rests: f32) -> Result<Self, String> {
         if ![1, 3].contains(&velocity.len()) {
             return Err(format!("{} grids of velocities, expected one of vectors or three of numbers", velocity.len()));
+        }
+        if let [grid] = velocity
+            && grid.values.storage() != Storage::Vector
+        {
+            return Err(format!("the grid '{}' holds numbers, expected vectors", grid.name));
         }
         let Some(to_lattice) = to_file.inverse() else { return Err("the velocities' voxels are flat".into()) };
         let cells = |velocity: [f64; 3]| to_lattice.vector(velocity).map(|way| (way * time) as f32);
@@ -82,7 +100,8 @@ fn beside(velocity: &[Grid], cells: &impl Fn([f64; 3]) -> [f32; 3]) -> i32 {
         voxels.flatten().filter(|x| x.is_finite()).fold(0.0f32, |most, x| most.max(x.abs()))
     };
     let most = f64::from(velocity.iter().map(speed).fold(0.0, f32::max));
-    let way = [[most, 0.0, 0.0], [0.0, most, 0.0], [0.0, 0.0, most]].map(cells).as_flattened().iter().fold(0.0f32, |most, x| most.max(x.abs()));
+    let way =
+        [[most, 0.0, 0.0], [0.0, most, 0.0], [0.0, 0.0, most]].map(cells).as_flattened().iter().fold(0.0f32, |most, x| most.max(x.abs()));
     (way / BRICK_EDGE as f32).ceil().clamp(1.0, MOST_BESIDE as f32) as i32
 }
 

@@ -55,7 +55,7 @@ pub use dicing::Dicing;
 pub use digest::{Digest, Digesting};
 pub use displacement::{Displacement, DisplacementKind};
 pub use error::{Diagnostic, Error, Result, Severity};
-pub use field::{COLOURS, Field, GridNames, Lattice};
+pub use field::{COLOURS, Field, Lattice};
 pub use flow::Flow;
 pub use gonio_formats::photometry::{Opening, OpeningShape, PhotometricType};
 pub use gonio_nodes::{

@@ -232,14 +232,74 @@ def test_files_follow_time(tmp_path):
         assert at_voxel(scene["fields"][0], (2, 2, 2)) == pytest.approx(factor * CLOUD[2, 2, 2], rel=1e-5) and not told
 
 
-def test_moving_volumes_stand_still_and_say_so(tmp_path):
+SHUTTER = 'def Camera "C" { double shutter:open = -0.5\n double shutter:close = 0.5\n }\n'
+
+
+def test_volumes_move_while_the_shutter_is_open(tmp_path):
     body = 'double3 xformOp:translate.timeSamples = { 0: (0, 0, 0), 10: (10, 0, 0) }\n    uniform token[] xformOpOrder = ["xformOp:translate"]'
-    camera = 'def Camera "C" { double shutter:open = -0.5\n double shutter:close = 0.5\n }\ndef Sphere "After" {\n ' + body + "\n}\n"
-    scene, told = load(tmp_path, SMOKE + camera + volume(body=body), frame=5.0)
+    scene, told = load(tmp_path, SMOKE + SHUTTER + volume(body=body), frame=5.0)
     assert columns(scene["fields"][0])[3, 0] == pytest.approx(0.6)
-    sets = {instances["origin"]["name"]: instances for instances in scene["instances"]}
-    assert sets["/Cloud"]["motion"] == [] and len(sets["/After"]["motion"]) == 3
-    assert [message for message in told if "volume changes or moves" in message], told
+    (places,) = scene["instances"]
+    shift = [np.array(key[0]["columns"])[3, 0] - columns(scene["fields"][0])[3, 0] for key in places["motion"]]
+    assert shift == pytest.approx([-0.05, 0.0, 0.05]) and not told
+
+
+def test_other_files_within_the_shutter_are_told(tmp_path):
+    vdb_file.write(tmp_path / "a.vdb", ("density", CLOUD))
+    vdb_file.write(tmp_path / "b.vdb", ("density", 3 * CLOUD))
+    text = SMOKE + volume(fields="density").replace("asset filePath = @cloud.vdb@", "asset filePath.timeSamples = { 1: @a.vdb@, 2: @b.vdb@ }")
+    scene, told = load(tmp_path, SHUTTER + text, frame=2.0)
+    assert at_voxel(scene["fields"][0], (2, 2, 2)) == pytest.approx(3 * CLOUD[2, 2, 2], rel=1e-5)
+    assert len(told) == 1 and "grids are others at other times of the shutter" in told[0]
+
+
+@pytest.mark.parametrize("parts", [False, True])
+def test_velocities_let_volumes_flow(tmp_path, parts):
+    """Stage units a second, a shutter of a 24th of a second that rests in its middle, voxels of half a unit."""
+    velocity = np.zeros((*CLOUD.shape, 3), np.float32)
+    velocity[..., 0], velocity[..., 2] = 24.0, -12.0
+    names = ["vel_x", "vel_y", "vel_z"] if parts else ["velocity"]
+    grids = [(name, velocity[..., axis] if parts else velocity) for axis, name in enumerate(names)]
+    if parts:
+        grids[1] = (names[1], np.full(CLOUD.shape, 1e-9, np.float32))
+    vdb_file.write(tmp_path / "cloud.vdb", ("density", CLOUD), *grids, voxel=0.5)
+    text = SMOKE + volume(fields=" ".join(["density", *names]))
+    scene, told = load(tmp_path, SHUTTER + text, file=False)
+    flow = scene["fields"][0]["flow"]
+    assert flow["most"] == pytest.approx([2.0, 0.0, 1.0], abs=1e-6) and flow["rests"] == pytest.approx(0.5) and not told
+    still, _ = load(tmp_path, text, file=False)
+    assert "flow" not in still["fields"][0]
+    least, greatest = (np.array(described["meshes"][0]["points"]).reshape(-1, 3) for described in (still, scene))
+    assert greatest.max(0) - least.max(0) == pytest.approx([1.0, 0.0, 0.5], abs=1e-6)
+
+
+def test_velocities_that_are_none_are_told(tmp_path):
+    vdb_file.write(tmp_path / "cloud.vdb", ("density", CLOUD), ("vel", CLOUD))
+    scene, told = load(tmp_path, SHUTTER + SMOKE + volume(fields="density vel"), file=False)
+    assert "flow" not in scene["fields"][0] and len(told) == 1 and "expected vectors; it does not flow" in told[0]
+
+
+def test_flowing_volumes_render_as_moved_ones(tmp_path):
+    """Even velocities are a motion."""
+    means = []
+    velocity = np.zeros((14, 9, 8, 3), np.float32)
+    velocity[..., 0] = 48.0
+    cloud = np.pad(20 * CLOUD, ((4, 4), (2, 2), (2, 2)))
+    vdb_file.write(tmp_path / "cloud.vdb", ("density", cloud), ("vel", velocity))
+    # The camera looks through the middle of the cloud's 0.6 m along z.
+    camera = SHUTTER.replace("{ ", '{ double3 xformOp:translate = (5.5, 4.5, 40)\n uniform token[] xformOpOrder = ["xformOp:translate"]\n float focalLength = 4000\n ', 1)
+    body = 'double3 xformOp:translate.timeSamples = { 0: (0, 0, 0), 10: (20, 0, 0) }\n    uniform token[] xformOpOrder = ["xformOp:translate"]'
+    light = 'def DomeLight "L" { float inputs:intensity = 1\n }\n'
+    for fields, move, shift in [("density vel", "", 0.0), ("density", body, 10.0)]:
+        seen = camera.replace("(5.5,", f"({5.5 + shift},")
+        path = tmp_path / "stage.usda"
+        path.write_text(HEADER + SMOKE + seen + light + volume(fields=fields, body=move))
+        scene = gonio.load_usd(str(path), camera_light=False, frame=5.0)
+        scene.set(width=8, height=8, samples=512, max_bounces=32, filter="box", seed=5)
+        pixels = np.asarray(finished(scene)["color"])[..., :3].mean(-1)
+        means.append((pixels.mean(), pixels.std() / 8))
+    (flowing, error), (moving, other) = means
+    assert flowing == pytest.approx(moving, abs=4 * math.hypot(error, other)) and error < 0.01 * flowing and flowing < 0.9, means
 
 
 def test_grids_of_one_name_are_told_apart_by_their_number(tmp_path):

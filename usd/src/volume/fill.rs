@@ -23,6 +23,8 @@ pub(crate) struct Filling {
     pub(crate) field: SceneField,
     /// Whether the medium is the same all over the box, and the field says no more than where that is.
     pub(crate) is_even: bool,
+    /// The fields of the velocities by which it flows; none where it does not.
+    pub(crate) velocity: Vec<Field>,
 }
 
 /// Constant primvars of the prim.
@@ -316,7 +318,8 @@ impl Filler<'_, '_, '_> {
             low.iter_mut().for_each(|x| *x += 0.5);
             high.iter_mut().for_each(|x| *x -= 0.5);
         }
-        Some(Filling { medium, field, is_even })
+        let velocity = if is_even { Vec::new() } else { self.volume.velocity() };
+        Some(Filling { medium, field, is_even, velocity })
     }
 
     /// Says where coefficients that are not 0 where their field is come to an end.

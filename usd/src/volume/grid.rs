@@ -52,7 +52,8 @@ impl GridCache {
     }
 }
 
-fn read(py: Python<'_>, field: &Field) -> Result<Grid, String> {
+/// The file of a field, and the number of its grid there.
+fn located(py: Python<'_>, field: &Field) -> Result<(VolumeFile, usize), String> {
     let (authored, place) = (&field.file.authored, &field.file.resolved);
     if place.is_empty() {
         return Err(format!("the file '{authored}' does not exist"));
@@ -64,9 +65,23 @@ fn read(py: Python<'_>, field: &Field) -> Result<Grid, String> {
         let bytes = asset::bytes(py, place).map_err(|problem| format!("the file '{place}' {problem}"))?;
         from_bytes(bytes, place)
     };
-    let in_file = |error: VolumeError| error.to_string();
-    let file = listed.map_err(in_file)?;
+    let file = listed.map_err(|error| error.to_string())?;
     let number = number(&file, field)?;
+    Ok((file, number))
+}
+
+/// The grid of a field as it is in its file.
+pub(super) fn open_grid(py: Python<'_>, field: &Field) -> Result<gonio_volume::Grid, String> {
+    let (file, number) = located(py, field)?;
+    let info = &file.grids()[number];
+    room_for(info.memory).map_err(|shortage| format!("{}: grid '{}' does not fit: {shortage}", file.name(), info.name))?;
+    py.detach(|| file.read(number).map_err(|error| error.to_string()))
+}
+
+fn read(py: Python<'_>, field: &Field) -> Result<Grid, String> {
+    let place = &field.file.resolved;
+    let in_file = |error: VolumeError| error.to_string();
+    let (file, number) = located(py, field)?;
     let info = &file.grids()[number];
     let wrong = |problem: String| format!("{place}: grid '{}' {problem}", info.name);
     if info.storage == Storage::Vector {

@@ -29,7 +29,8 @@ pub(super) fn moving(scene: &Scene, origin: [f64; 3]) -> MovingFields {
 /// Says which fields cannot move with what holds them.
 pub(super) fn report(scene: &Scene, diagnostics: &mut Vec<Diagnostic>) {
     for (set, id) in held(scene).filter(|(set, _)| set.transforms.len() > 1) {
-        let problem = format!("it is in {} things that move; it stands still within them, one field each moves with it", set.transforms.len());
+        let problem =
+            format!("it is in {} things that move; it stands still within them, one field each moves with it", set.transforms.len());
         diagnostics.push(Diagnostic::warning(&scene.fields[id.index()].origin, problem));
     }
 }

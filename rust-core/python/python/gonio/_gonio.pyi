@@ -853,9 +853,14 @@ class Scene:
         heat: Numbers | tuple[str | PathLike[str], str] | None = None,
         taken: Numbers | None = None,
         sent: Numbers | None = None,
-        flow: tuple[Sequence[str], float] | tuple[Numbers, Sequence[float]] | None = None,
-        rests: float = 0.5,
     ) -> int: ...
+    def put_flow(
+        self,
+        field: int,
+        to_world: Mapping[str, Any],
+        flow: tuple[str | PathLike[str], Sequence[str], float] | tuple[Numbers, Sequence[float]],
+        rests: float,
+    ) -> None: ...
     def field_places(self, field: int, to_world: Mapping[str, Any], keys: Sequence[Mapping[str, Any]]) -> list[list[list[float]]]: ...
     def put_field_box(self, field: int, index: int | None = None) -> tuple[int, list[list[float]]]: ...
     def put_atmosphere(self, description: Mapping[str, Any]) -> None: ...

@@ -102,8 +102,8 @@ def of_voxels(to_world: dict[str, Any], edges: Sequence[float]) -> dict[str, Any
     return {"columns": [*scaled, corner]}
 
 
-def flow_of(velocity: Any, shutter_s: float, edges: Sequence[float] | None) -> tuple[Any, Any]:
-    """What `Scene.put_field` takes as the flow of velocities, m/s: those of an array whose voxels have these edges, or the names of a file's grids."""
+def flow_of(density: Any, velocity: Any, shutter_s: float, edges: Sequence[float] | None) -> Any:
+    """What `Scene.put_flow` takes of velocities, m/s: those of an array whose voxels have these edges, or the names of the grids of the density's file."""
     if edges is not None:
         return velocity, [shutter_s / edge for edge in edges]
-    return [velocity] if isinstance(velocity, str) else [str(name) for name in velocity], float(shutter_s)
+    return density[0], [velocity] if isinstance(velocity, str) else [str(name) for name in velocity], float(shutter_s)

@@ -120,9 +120,10 @@ class Scene(_gonio.Scene):
         if not isinstance(density, tuple):
             edges = numbers("voxel", [voxel] * 3 if isinstance(voxel, (int, float)) else voxel, 3)
             to_world, keys = of_voxels(to_world, edges), [of_voxels(key, edges) for key in keys]
-        flow = None if velocity is None else flow_of(velocity, shutter_s, edges)
         described = {"origin": name, "to_world": to_world, "glow": [numbers("glow", factor, 3) for factor in glow]}
-        field = self.put_field(described, density=density, heat=heat, flow=flow, rests=rests)
+        field = self.put_field(described, density=density, heat=heat)
+        if velocity is not None:
+            self.put_flow(field, to_world, flow_of(density, velocity, shutter_s, edges), rests)
         box, placed = self.put_field_box(field)
         inside = medium(scattering=scattering, absorption=absorption, emission=emission, anisotropy=anisotropy, phase=phase, **numbers_of_phase)
         filled = self.put_material(volume_material(name, {**inside, "field": field}))

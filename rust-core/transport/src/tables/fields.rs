@@ -190,7 +190,9 @@ impl Default for Layout {
 impl Layout {
     fn add(&mut self, field: &FieldLayout<'_>) {
         self.to_lattice.iter_mut().for_each(|rows| rows.extend([0.0; ROW]));
-        for (rows, boxes, last) in [(&mut self.reach, field.reach, [field.hottest, 0.0]), (&mut self.domain, field.domain, [field.rests, 0.0])] {
+        for (rows, boxes, last) in
+            [(&mut self.reach, field.reach, [field.hottest, 0.0]), (&mut self.domain, field.domain, [field.rests, 0.0])]
+        {
             for (row, ([x, y, z], last)) in rows.iter_mut().zip(boxes.into_iter().zip(last)) {
                 row.extend([x, y, z, last]);
             }
