@@ -85,6 +85,7 @@ class Exporter:
         self._instances.blur(places, self._forms(depsgraph, places, shutter, ends), ends)
         if not ends:
             self._lights.blur(places)
+            self._volumes.blur(shutter, scene.render.fps / scene.render.fps_base)
         self._camera_motion = {uid: motion.camera_keys(uid, asked, places) for uid, asked in cameras.items()}
 
     def _forms(self, depsgraph, places, shutter, ends):
@@ -229,15 +230,14 @@ class Exporter:
                 if group.kind == VOLUME and layer.use_volumes:
                     inside = self._materials.inside(group.slots, walk.materials, override)
                     filled = self._volumes.of_group(group, inside, depsgraph)
-                    entries += [(*each, frozenset()) for each in filled]
-                    # Nothing else goes by these keys: volumes stand still while the shutter is open.
-                    keys += [(key, number) for number in range(len(filled))]
+                    entries += [(*each[:3], frozenset()) for each in filled]
+                    keys += [motion.Placed(key, [number], inner) for *_, number, inner in filled]
                 elif group.kind not in ("LIGHT", VOLUME) and (layer.use_strand if group.kind in FIBRES else layer.use_solid):
                     materials = self._materials.of_slots(group.slots, walk.materials, override)
                     if materials.uneven and group.kind not in FIBRES:
                         filled = self._filled(group, materials, depsgraph)
-                        entries += [(*each, materials.placed) for each in filled]
-                        keys += [(key, number) for number in range(len(filled))]
+                        entries += [(*each[:3], materials.placed) for each in filled]
+                        keys += [motion.Placed(key, numbers) for *_, numbers in filled]
                         continue
                     for shown, numbers in self._surfaces(group, materials, depsgraph):
                         entries.append((group, shown, numbers, materials.placed))
@@ -262,12 +262,13 @@ class Exporter:
         changes.transforms |= self._instances.any_written
 
     def _filled(self, group, materials, depsgraph):
-        """The placements of a mesh whose inside varies, one by one."""
+        """The placements of a mesh whose inside varies, one by one, and their numbers."""
         mesh = self._meshes.number(group, materials.primvars)
         if mesh is None:
             return []
         described = {slot: self._materials.description(materials.numbers[slot]) for slot in materials.uneven}
-        return [(part, ("mesh", mesh), numbers) for part, numbers in self._insides.of_group(group, materials, described, depsgraph)]
+        found = self._insides.of_group(group, materials, described, depsgraph)
+        return [(part, ("mesh", mesh), numbers, placed) for part, numbers, placed in found]
 
     def _surfaces(self, group, materials, depsgraph):
         """What a group shows: kinds of surfaces with their numbers, and the materials of each."""

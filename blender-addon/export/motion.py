@@ -47,6 +47,21 @@ class Places:
     forms: dict = field(default_factory=dict)
 
 
+@dataclass(eq=False)
+class Placed:
+    """The key of what is placed with some placements of a group: the group's key, the placements' numbers, and the matrix from its own space to
+    theirs."""
+
+    group: tuple
+    numbers: list
+    inner: np.ndarray = field(default_factory=lambda: np.eye(4))
+
+    def matrices(self, groups):
+        """Its matrices where those of all groups are these; None where there are not as many."""
+        found = groups.get(self.group)
+        return None if found is None or len(found) <= max(self.numbers) else (found[self.numbers].astype(float) @ self.inner).astype(np.float32)
+
+
 class _Silent:
     """Takes what was told before, of the frame itself."""
 
@@ -202,7 +217,8 @@ def forms_of(key, group, places, shutter, scene, ends=()):
 
 def moved(key, rest, shares, places):
     """The matrices of a group (K, N, 4, 4) at shares of the shutter's time; None where they stand still, or are others at other times."""
-    keys = [places[share].groups.get(key) for share in shares]
+    is_part = isinstance(key, Placed)
+    keys = [key.matrices(places[share].groups) if is_part else places[share].groups.get(key) for share in shares]
     if not keys or any(found is None or found.shape != rest.shape or not np.isfinite(found).all() for found in keys):
         return None
     stacked = np.stack(keys)

@@ -81,4 +81,8 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    ended = main()
+    sys.stdout.flush()
+    sys.stderr.flush()
+    # Blender 4.5 can wait for ever for a thread of its own that closes files late.
+    os._exit(ended)

@@ -13,6 +13,7 @@ from ..slots import Slots
 from ..transforms import columns
 from ..visibility import RAYS
 from .filling import Place, fill
+from .flow import flowing
 from .sources import Sources
 
 # The density of what nothing shows any more.
@@ -27,6 +28,8 @@ class Volumes:
         self._fields, self._sources = Slots(), Sources()
         # By the key of a field: the matrix that places its box.
         self._boxes = {}
+        # By the number of a field: its box, and how it flows.
+        self._flowing = {}
         # (object, data, placement) -> (what it was made from, filling)
         self._fillings, self._seen = {}, set()
         # Materials of this pass, and of the pass before.
@@ -37,7 +40,7 @@ class Volumes:
         """Starts a pass; without `keep_known` files and simulations are looked at again."""
         self._fields.begin()
         self.any_written = self.any_shaded = False
-        self._seen, self._before, self._count = set(), self._count, 0
+        self._seen, self._before, self._count, self._flowing = set(), self._count, 0, {}
         self._sources.begin(keep_known)
 
     def forget(self, uids):
@@ -45,8 +48,8 @@ class Volumes:
         self._sources.forget(uids)
 
     def of_group(self, group, inside, depsgraph):
-        """What a group shows: a group of one placement each, its box as a kind with its number, and its material's number. `inside` is a
-        translator, the medium and the material's name and index."""
+        """What a group shows: a group of one placement each, its box as a kind with its number, its material's number; the placement's number, and the
+        matrix from the box to its space. `inside` is a translator, the medium and the material's name and index."""
         if inside.medium is None:
             return []
         if "holdout" in group.visibility:
@@ -68,6 +71,7 @@ class Volumes:
                         for limit, subject in filling.told:
                             self._report.tell(limit, "Object", group.name, subject)
                         found.append(self._shown(group, number, filling, here, inside))
+                        self._note_flow(group, grids, filling, here)
         return found
 
     def _filling(self, key, inside, grids, here):
@@ -103,7 +107,22 @@ class Volumes:
         visibility = {ray: group.visibility[ray] for ray in RAYS}
         placed = np.ascontiguousarray(self._boxes[key], dtype=np.float32)[None]
         rows = [group.rows[number]]
-        return replace(group, rows=rows, matrices=placed, kept=None, is_itself=False, visibility=visibility), ("mesh", box), [material]
+        shown = replace(group, rows=rows, matrices=placed, kept=None, is_itself=False, visibility=visibility)
+        return shown, ("mesh", box), [material], number, np.linalg.inv(here.matrix) @ self._boxes[key]
+
+    def _note_flow(self, group, grids, filling, here):
+        """Keeps how a volume flows that has velocities, for when the shutter is known."""
+        found = flowing(group, grids, filling, here)
+        if found is not None:
+            field, key, _ = self.field(group.name, filling, here.matrix)
+            self._flowing[field] = self._meshes.take(("box", key))[0], found
+
+    def blur(self, shutter, rate):
+        """Has volumes flow that have velocities while the shutter is open, and their boxes hold them; `rate` is that of frames a second."""
+        for field, (box, found) in self._flowing.items():
+            with self._report.guard("Object", found.name, "it does not flow"):
+                self._scene.put_flow(field, columns(found.to_world), found.source(shutter, rate), found.rests(shutter))
+                self._scene.put_field_box(field, box)
 
     def _keep_box(self, key, field, index):
         _, self._boxes[key] = self._scene.put_field_box(field, index)

@@ -12,12 +12,12 @@ GRIDS = {"density": 1, "flame": 1, "temperature": 1, "heat": 1, "color": 4, "vel
 
 
 class Simulated:
-    """The grids of a domain; `unasked` are those that count without being asked for."""
+    """The grids of a domain, and the factor on its velocities; `unasked` are those that count without being asked for."""
 
     unasked = frozenset()
 
-    def __init__(self, grids):
-        self.names = grids
+    def __init__(self, grids, velocity_scale):
+        self.names, self.velocity_scale = grids, velocity_scale
         digest = blake2b(digest_size=16)
         for name, grid in grids.items():
             digest.update(f"{name} {grid.shape}".encode())
@@ -73,7 +73,7 @@ def grids_of(thing, settings):
         shape = next((shape for shape in (coarse, fine) if len(values) and len(values) == np.prod(shape) * components), None)
         if shape is not None:
             found[name] = Dense(_arranged(values, shape, components), filling(*box, shape))
-    return Simulated(found) if found else None
+    return Simulated(found, settings.velocity_scale) if found else None
 
 
 def _numbers(array):

@@ -46,19 +46,22 @@ class Insides:
         self._fillings = {key: filling for key, filling in self._fillings.items() if key in self._used}
 
     def of_group(self, group, materials, described, depsgraph):
-        """Groups of one placement each, or of all that have no field of their own, and the numbers of their materials; `described` are the
-        materials that vary, by slot."""
+        """Groups of one placement each, or of all that have no field of their own, the numbers of their materials, and those of the placements;
+        `described` are the materials that vary, by slot."""
         count = len(group.rows)
         shown = np.arange(count) if group.kept is None else np.flatnonzero(group.kept)
-        parts = [_part(group, [number]) for number in shown[:MOST_PLACEMENTS]]
+        first = [[number] for number in shown[:MOST_PLACEMENTS]]
+        parts = [_part(group, numbers) for numbers in first]
         self._fill_values(parts, materials.uneven, depsgraph)
-        found = [(part, self._numbers(part, materials, described, self._in_field)) for part in parts]
+        made = [(part, self._numbers(part, materials, described, self._in_field)) for part in parts]
+        found = [(*each, numbers) for each, numbers in zip(made, first, strict=True)]
         rest = shown[MOST_PLACEMENTS:]
         if len(rest):
             self._report.tell("volume placements", "Object", group.name)
-            found.append((_part(group, rest), self._numbers(parts[0], materials, described, self._in_the_mean)))
+            found.append((_part(group, rest), self._numbers(parts[0], materials, described, self._in_the_mean), rest.tolist()))
         if len(shown) < count:
-            found.append((_part(group, np.flatnonzero(~group.kept)), materials.numbers))
+            lost = np.flatnonzero(~group.kept)
+            found.append((_part(group, lost), materials.numbers, lost.tolist()))
         return found
 
     def _fill_values(self, parts, uneven, depsgraph):

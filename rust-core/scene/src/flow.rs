@@ -58,7 +58,7 @@ impl Flow {
         let Some(to_lattice) = to_file.inverse() else { return Err("the velocities' voxels are flat".into()) };
         let cells = |velocity: [f64; 3]| to_lattice.vector(velocity).map(|way| (way * time) as f32);
         let cells = match velocity {
-            [grid] if Transform::from_row_vector_matrix(&grid.transform.0) == *to_file => {
+            [grid] if is_like(&Transform::from_row_vector_matrix(&grid.transform.0), to_file) => {
                 let along = |axis: usize| Lattice::of(grid, None, |v| cells(v.map(f64::from))[axis]);
                 [along(0)?, along(1)?, along(2)?]
             }
@@ -66,6 +66,13 @@ impl Flow {
         };
         Ok(Self::new(cells, rests))
     }
+}
+
+/// Whether two maps are one but for rounding.
+fn is_like(map: &Transform, other: &Transform) -> bool {
+    let size = map.columns[..3].as_flattened().iter().fold(0.0f64, |most, x| most.max(x.abs()));
+    let room = |column: usize| 1e-6 * if column == 3 { size.max(map.columns[3].iter().fold(0.0, |most, x| x.abs().max(most))) } else { size };
+    (0..4).all(|column| (0..3).all(|row| (map.columns[column][row] - other.columns[column][row]).abs() <= room(column)))
 }
 
 /// A flow at the points of another lattice than its grids', in its blocks and those near by.

@@ -213,6 +213,7 @@ def test_properties_of_the_world(tmp_path):
 @pytest.mark.parametrize(("name", "switch"), [("Ball", "use_motion_blur"), ("Bender", "use_deform_motion"), ("Camera", "use_motion_blur")])
 def test_switches_of_blur(tmp_path, name, switch, values):
     import bpy
+    from keys import curves_of
 
     def build():
         scene = stage()
@@ -235,10 +236,3 @@ def test_switches_of_blur(tmp_path, name, switch, values):
         return scene
 
     frames_are_stills(tmp_path, build)
-
-
-def curves_of(action):
-    """The curves of an action, which newer versions keep in layers."""
-    if hasattr(action, "fcurves"):
-        return list(action.fcurves)
-    return [curve for layer in action.layers for strip in layer.strips for bag in strip.channelbags for curve in bag.fcurves]

@@ -83,6 +83,7 @@ def test_a_thousand_frames_leak_nothing(tmp_path: Path):
 
     import bpy
     import numpy
+    from keys import curves_of
 
     scene = animated(size=8)
     scene.gonio.samples = 1
@@ -107,10 +108,3 @@ def test_a_thousand_frames_leak_nothing(tmp_path: Path):
     print(f"frame 100: {sizes[99] / 1e6:.1f} MB, 500: {sizes[499] / 1e6:.1f} MB, 1000: {sizes[-1] / 1e6:.1f} MB")
     middle, last = numpy.median(sizes[100:200]), numpy.median(sizes[900:])
     assert last - middle < 8e6, (middle, last)
-
-
-def curves_of(action):
-    """The curves of an action, which newer versions keep in layers."""
-    if hasattr(action, "fcurves"):
-        return list(action.fcurves)
-    return [curve for layer in action.layers for strip in layer.strips for bag in strip.channelbags for curve in bag.fcurves]

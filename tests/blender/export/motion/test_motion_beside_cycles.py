@@ -249,25 +249,18 @@ def differs(one, other):
     return np.abs(blocks(one) - blocks(other)).max() / other.mean()
 
 
-def curves_of(action):
-    """All curves of an action; since 5.0 they are in its layers."""
-    if hasattr(action, "fcurves"):
-        return list(action.fcurves)
-    return [curve for layer in action.layers for strip in layer.strips for bag in strip.channelbags for curve in bag.fcurves]
-
-
 def prepared(kind, position):
     """The scene of a kind at frame 2, with the shutter open for a whole frame."""
     import unittest
 
     import bpy
+    from keys import go_straight
 
     scene = room(SAMPLES)
     if not hasattr(scene, "cycles"):
         raise unittest.SkipTest("no Cycles")
     KINDS[kind]()
-    for point in (point for action in bpy.data.actions for curve in curves_of(action) for point in curve.keyframe_points):
-        point.interpolation = "LINEAR"
+    go_straight(bpy.data.actions)
     scene.frame_set(2)
     # Before 5.0 the position is a setting of Cycles.
     placed = scene.render if hasattr(scene.render, "motion_blur_position") else scene.cycles

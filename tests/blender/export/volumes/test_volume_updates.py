@@ -161,7 +161,7 @@ def test_volumes_of_geometry_nodes_leave_no_files():
 class Domain:
     """What a fluid domain's settings give of a simulation."""
 
-    domain_resolution, noise_scale = (4, 3, 2), 2
+    domain_resolution, noise_scale, velocity_scale = (4, 3, 2), 2, 1.0
 
     def __init__(self, numpy):
         class Array(list):
