@@ -38,8 +38,9 @@ OBJECTS = {
         "More than 64 placements of a mesh whose volume varies", "those beyond are even, as dense as the first is in the mean of its box"
     ),
     "mesh volumes": _untold(
-        "Volumes of meshes that vary: what is finer than a 128th of the longest edge, motion blur, what displacement pushes out of the box",
-        "smooth between points; the mesh stands still at the frame; clear there",
+        "Volumes of meshes that vary: what is finer than a 128th of the longest edge, forms that change while the shutter is open, what displacement pushes out "
+        "of the box",
+        "smooth between points; they keep the form of the frame; clear there",
     ),
     "volume holdout": Limit("Volume objects as holdouts", "seen as others are"),
     "volume visibility": _untold(
@@ -58,8 +59,8 @@ OBJECTS = {
         "temperatures are mixed; less light in coarse fire, 9 % over 12 voxels",
     ),
     "volume settings": _untold(
-        "Precision, clipping, step size and velocity of volume objects, cubic interpolation, and their motion blur",
-        "full precision, trilinear and without steps; they stand still at the frame",
+        "Precision, clipping and step size of volume objects, cubic interpolation",
+        "full precision, trilinear and without steps",
     ),
     "curve types": _untold("Hair curves of the types Poly, Bézier and NURBS", "drawn through their points, as in Cycles"),
     "within a lamp": _untold(
