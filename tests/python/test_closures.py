@@ -109,6 +109,51 @@ def test_every_model_keeps_the_furnace(model):
     assert (mean(plane([closure(model)]))[:3] <= 1 + 0.01).all()
 
 
+def refracted(angle, roughness, eta, count=400_000):
+    """The part of light from an angle that facets (GGX) refract, which send back nothing, through an interface of an index; its standard error."""
+    alpha, random = roughness**2, np.random.default_rng(5)
+    wo = np.array([np.sin(angle), 0.0, np.cos(angle)])
+    # Visible normals (Heitz 2018).
+    view = wo * (alpha, alpha, 1.0)
+    view /= np.linalg.norm(view)
+    across = np.array([0.0, 1.0, 0.0])
+    along = np.cross(view, across)
+    radius, turn = np.sqrt(random.random(count)), 2 * np.pi * random.random(count)
+    x, y, share = radius * np.cos(turn), radius * np.sin(turn), 0.5 * (1.0 + view[2])
+    y = (1.0 - share) * np.sqrt(1.0 - x**2) + share * y
+    basis = np.stack([across, np.cross(view, across), view])
+    normals = np.stack([x, y, np.sqrt(np.maximum(1.0 - x**2 - y**2, 0.0))], axis=1) @ basis
+    normals = normals * (alpha, alpha, 1.0)
+    normals[:, 2] = np.maximum(normals[:, 2], 1e-9)
+    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    cosine = normals @ wo
+    squared = 1.0 - (1.0 - cosine**2) / eta**2
+    wi = normals * (cosine / eta - np.sqrt(np.maximum(squared, 0.0)))[:, None] - wo / eta
+
+    def hidden(cosine):
+        return 0.5 * (np.sqrt(1.0 + alpha**2 * (1.0 / cosine**2 - 1.0)) - 1.0)
+
+    passes = (squared > 0.0) & (wi[:, 2] < 0.0) & (cosine > 0.0)
+    own, other = hidden(wo[2]), hidden(np.minimum(wi[:, 2], -1e-6))
+    found = np.where(passes, (1.0 + own) / (1.0 + own + other), 0.0)
+    return found.mean(), found.std() / np.sqrt(count)
+
+
+@pytest.mark.parametrize("roughness", [0.3, 0.8])
+@pytest.mark.parametrize("degrees", [0, 45, 70])
+@pytest.mark.parametrize("within", [False, True])
+def test_rough_refraction_passes_what_its_facets_do(roughness, degrees, within):
+    """From within also beyond the critical angle, where smooth ones pass nothing."""
+    angle, side = np.radians(degrees), -1.0 if within else 1.0
+    scene = plane([closure("Refraction", base_color=1.0, specular_roughness=roughness, specular_ior=1.33)], width=16, height=16, samples=1024, max_bounces=1, camera=1)
+    scene.add_camera(gonio.look_at((5 * np.sin(angle), side * 5 * np.cos(angle), 0.0), (0, 0, 0), (0, 0, 1)), fov=0.1)
+    with gonio.Render(scene) as render:
+        render.wait()
+        found = np.asarray(render.film()["color"])[..., 0].astype(float)
+    expected, error = refracted(angle, roughness, 1.0 / 1.33 if within else 1.33)
+    assert found.mean() == pytest.approx(expected, abs=4 * np.hypot(found.std() / 16, error) + 2e-4)
+
+
 def test_light_passes_make_up_the_picture():
     kinds = "diffuse", "glossy", "transmission"
     parts = "direct", "indirect", "color"

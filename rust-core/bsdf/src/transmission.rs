@@ -87,6 +87,8 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
         };
         let [reflected, refracted] = interface.split(self.specular_mu);
         let lobe = GlassLobe::new(turned(self.specular_wo, turn), widths, interface, distribution);
+        // Some facets of rough ones let light pass beyond the critical angle of the whole.
+        let refracted = if interface.refracts_only { lobe.delta.select(refracted, interface.passed) } else { refracted };
         self.push(Shape::Glass(lobe), weight * factor, weight * (reflected + refracted), turn, Side::Both, Normal::Specular);
     }
 
