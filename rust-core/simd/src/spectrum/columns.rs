@@ -52,10 +52,6 @@ impl SpectrumColumns {
     pub fn magnitude_of(&self, at: usize) -> f32 {
         self.0.iter().map(|column| column[at].abs()).sum()
     }
-    /// Their mean.
-    pub fn mean_magnitude_of(&self, at: usize) -> f32 {
-        self.magnitude_of(at) / 3.0
-    }
     /// Multiplies one spectrum by one of others.
     pub fn multiply(&mut self, at: usize, factors: &Self, from: usize) {
         self.0.iter_mut().zip(&factors.0).for_each(|(column, factors)| column[at] *= factors[from]);

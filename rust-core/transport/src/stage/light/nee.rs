@@ -71,7 +71,7 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
     let weight = weight.of(sample, pdf);
     let radiance = tables.lights.light(chunk.sample.wavelengths(l, point.core.slot), sample.light, sample.radiance);
     let whole = f * radiance * point.core.throughput * (weight / sample.pdf);
-    let (value, ceiling) = clamped(tables, transport, sample.light, whole, point.bounces + 1);
+    let (value, ceiling) = clamped(tables, transport, sample, whole, point.bounces + 1);
     let lit = usable & value.is_lit() & value.abs().max_component().is_finite();
     deposits.note_lost(&point.at, present.and_not(lit));
     let code = with_sample(transport.passes.expressions.as_deref(), code_of_sampled(point.core.flags), point.core.flags, !wi.z.gt(0.0));
@@ -88,22 +88,25 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
     }
 }
 
-/// The contribution of a light's sample within its limit, and the limit where that is yet to be applied.
+/// The contribution of a light's sample within its limit, or all of it and the limit where that is yet to be applied.
 #[inline(always)]
 pub(crate) fn clamped<L: Lanes>(
     tables: &Tables,
     transport: &Transport,
-    light: U<L>,
+    sample: &LightSample<L>,
     whole: Spectrum<L>,
     scattered: U<L>,
 ) -> (Spectrum<L>, Option<F<L>>) {
     let value = transport.limits.clamped(whole, scattered);
-    if !(tables.lights.any_shaded() && transport.limits.clamps_any()) {
+    if !clamps_late(tables, transport) {
         return (value, None);
     }
-    // What is not known yet is clamped when it is.
-    let value = tables.lights.is_shaded(light.lanes(), light).select(whole, value);
-    (value, Some(transport.limits.ceiling(scattered)))
+    (sample.casts_shadow.select(whole, value), Some(transport.limits.ceiling(scattered)))
+}
+
+/// Whether contributions are held within their limits as they arrive: what shadow rays pass dims them, and programs tell what meshes shine with.
+pub(crate) fn clamps_late(tables: &Tables, transport: &Transport) -> bool {
+    transport.limits.clamps_any() && (tables.lights.any_shaded() || tables.any_transparent || tables.any_absorbing)
 }
 
 /// Light from below the triangle that the shading normal takes for light from above: its shadow ray would start on the other side, and bring

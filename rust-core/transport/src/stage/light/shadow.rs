@@ -7,6 +7,7 @@ use crate::graph::CHUNK;
 use crate::kernels;
 use crate::stage::find::closures::{ClosureHits, MaterialHits, each_closure};
 use crate::stage::light::linked_shadow;
+use crate::stage::light::nee::clamps_late;
 use crate::stage::light::textured_emission;
 use crate::stage::shade::catcher;
 use crate::state::chunk::ChunkColumns;
@@ -44,6 +45,9 @@ pub(crate) fn trace_shadows(
         occlude(tables, transport, coherent, shadows, trace, chunk);
     }
     textured_emission::multiply(tables, transport, trace, shadows, chunk);
+    if clamps_late(tables, transport) {
+        dispatch!(transport.execution, l => shadows.clamp(l));
+    }
     dispatch!(transport.execution, l => add_arrived(l, transport, shadows, &trace.blocked, deposits));
     deposits.note_arrivals(shadows, &trace.blocked);
     shadows.count = 0;

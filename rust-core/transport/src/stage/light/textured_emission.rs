@@ -21,7 +21,7 @@ use gonio_accel::TransparentHit;
 use gonio_bsdf::parameter::OPACITY;
 use gonio_simd::{Execution, Frame, Lanes, One, PADDING, Spectrum, SpectrumColumns, dispatch};
 
-/// Gives the shadow rays that arrive at such meshes what the points emit, within their limits.
+/// Gives the shadow rays that arrive at such meshes what the points emit.
 pub(crate) fn multiply(
     tables: &Tables,
     transport: &Transport,
@@ -44,9 +44,6 @@ pub(crate) fn multiply(
             shadows.contribution.multiply(end.ray as usize, &emission.emitted, i);
         }
     });
-    if transport.limits.clamps_any() {
-        ends.iter().for_each(|end| shadows.clamp(end.ray as usize));
-    }
     emission.ends = ends;
 }
 

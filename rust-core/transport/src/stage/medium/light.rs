@@ -190,7 +190,7 @@ fn send_on<L: Lanes>(
     let weight = weight * tables.lights.scattered_factor(l, sample.light, l.u(event::VOLUME));
     let radiance = tables.lights.light(context.sample.wavelengths(l, way.core.slot), sample.light, sample.radiance);
     let whole = radiance * way.core.throughput * left * phase * (weight / sample.pdf);
-    let (value, ceiling) = clamped(tables, transport, sample.light, whole, way.bounces() + 1);
+    let (value, ceiling) = clamped(tables, transport, sample, whole, way.bounces() + 1);
     let lit = usable & value.is_lit() & value.abs().max_component().is_finite();
     let flags = flags(context, way);
     let code = with_state(transport.passes.expressions.as_deref(), code_of_found(flags, 0), flags);

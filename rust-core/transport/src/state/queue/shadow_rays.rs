@@ -41,7 +41,7 @@ pub(crate) struct Along<L: Lanes> {
     media: Option<MediaSet<L>>,
     /// Surfaces that their paths have gone straight through, where their number is limited.
     straight: Option<U<L>>,
-    /// The most that they may bring in the mean of their channels, where programs know what lights emit and that is clamped.
+    /// The most that they may bring in the mean of their channels, where that is clamped as they arrive.
     ceiling: Option<F<L>>,
 }
 
@@ -77,7 +77,7 @@ pub(crate) struct ShadowRays {
     pub(crate) salt: Column<u32>,
     /// Surfaces that paths have gone straight through; filled where anything is transparent and their number is limited.
     pub(crate) straight: Column<u32>,
-    /// Most that contributions may come to; filled where programs know what lights emit and contributions are clamped.
+    /// Most that contributions may come to; filled where they are clamped as they arrive.
     pub(crate) ceiling: Column,
 }
 
@@ -135,11 +135,14 @@ impl ShadowRays {
         self.count + hits * shadow_rays_per_hit <= SHADOW_ROOM - PADDING
     }
 
-    /// Holds a contribution within its limit.
-    pub(crate) fn clamp(&mut self, ray: usize) {
-        let (mean, most) = (self.contribution.mean_magnitude_of(ray), self.ceiling[ray]);
-        if mean > most {
-            self.contribution.scale(ray, most / mean);
+    /// Holds all contributions within their limits.
+    #[inline(always)]
+    pub(crate) fn clamp<L: Lanes>(&mut self, l: L) {
+        for at in (0..self.count).step_by(L::COUNT) {
+            let (value, most) = (self.contribution.load(l, at), l.load(&self.ceiling, at));
+            let mean = value.abs().mean();
+            let held = value * mean.gt(most).select(most / mean, l.f(1.0));
+            self.contribution.store(held, at);
         }
     }
 
