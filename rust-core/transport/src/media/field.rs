@@ -15,8 +15,8 @@ pub(crate) struct FieldRays<L: Lanes> {
     /// The box that the field fills, or comes to.
     reach: [Vec3<L>; 2],
     hottest: F<L>,
-    /// None where no field flows.
-    flow: Option<Flow<L>>,
+    /// The part of the shutter's time since the numbers held, 0 where nothing flows; none where no field does.
+    since: Option<F<L>>,
     /// See [`FieldTable::bricks`] and [`FieldTable::coarse`].
     bricks: [U<L>; 4],
     coarse: [U<L>; 4],
@@ -33,7 +33,7 @@ struct Flow<L: Lanes> {
     first: [U<L>; 4],
     /// The box of the numbers.
     domain: [Vec3<L>; 2],
-    /// The part of the shutter's time since the numbers held, 0 where nothing flows.
+    /// See [`FieldRays`].
     since: F<L>,
 }
 
@@ -84,7 +84,10 @@ impl<L: Lanes> FieldRays<L> {
             inverse: Vec3::new(inverse(direction.x), inverse(direction.y), inverse(direction.z)),
             reach: [Vec3::new(low[0], low[1], low[2]), Vec3::new(high[0], high[1], high[2])],
             hottest: low[3],
-            flow: if table.flows { Some(Flow::new(l, table, at, time)) } else { None },
+            since: match table.flows {
+                true => Some((time - l.gather(&table.domain[0], at + 3)).keep_if(l.gather_integers(&table.flow, at).ne(0))),
+                false => None,
+            },
             bricks: l.gather_integer_quads(&table.bricks, at),
             coarse: l.gather_integer_quads(&table.coarse, at),
             colours: match table.is_coloured {
@@ -157,7 +160,8 @@ impl<L: Lanes> FieldRays<L> {
     #[inline(always)]
     fn place(&self, l: L, table: &FieldTable, distance: F<L>) -> Place<L> {
         let point = self.at(distance);
-        let Some(flow) = &self.flow else { return self.place_of(point, self.reach) };
+        let Some(since) = self.since else { return self.place_of(point, self.reach) };
+        let flow = Flow::of(l, table, self.field * ROW as u32, since);
         // What is here now was a way back (semi-Lagrangian advection, as Cycles has it): by the flow here, and then by that where this leads.
         let near = flow.back(l, table, &self.place_of(point, self.reach), point);
         let from = flow.back(l, table, &self.place_of(near, self.reach), point);
@@ -212,7 +216,7 @@ impl<L: Lanes> FieldRays<L> {
     /// Factor on the emission after so many metres; 0 outside.
     #[inline(always)]
     pub(crate) fn glow(&self, l: L, media: &MediumTable, distance: F<L>) -> Spectrum<L> {
-        let holds = match self.flow {
+        let holds = match self.since {
             Some(_) => self.place(l, &media.fields, distance).holds,
             None => self.holds(self.at(distance)),
         };
@@ -238,16 +242,16 @@ impl<L: Lanes> FieldRays<L> {
 }
 
 impl<L: Lanes> Flow<L> {
-    /// That of fields by their places in the table, at times of the shutter.
+    /// That of fields by their places in the table, so long after their numbers held.
     #[inline(always)]
-    fn new(l: L, table: &FieldTable, at: U<L>, time: F<L>) -> Self {
+    fn of(l: L, table: &FieldTable, at: U<L>, since: F<L>) -> Self {
         let [low, high] = [0, 1].map(
             #[inline(always)]
             |end| l.gather_quads(&table.domain[end], at),
         );
         let first = l.gather_integer_quads(&table.flow, at);
         let domain = [Vec3::new(low[0], low[1], low[2]), Vec3::new(high[0], high[1], high[2])];
-        Self { first, domain, since: (time - low[3]).keep_if(first[0].ne(0)) }
+        Self { first, domain, since }
     }
 
     /// Where what is at a point now was when the numbers held, by the flow at a place.

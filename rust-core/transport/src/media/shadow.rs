@@ -107,7 +107,7 @@ impl OpticalDepth {
                 |[x, y, z]| Vec3::new(l.gather(x, number), l.gather(y, number), l.gather(z, number)),
             );
             let way = [l.load(&ends[0], 0), l.load(&ends[1], 0)];
-            let time = if times.is_empty() { l.f(0.5) } else { l.gather(times, number) };
+            let time = || if times.is_empty() { l.f(0.5) } else { l.gather(times, number) };
             let Some(track) = Track::of(l, table, media.load(l, 0), [origin, direction], time) else { continue };
             left.store(track.transmittance(way, l.first(some.len()), seed(origin, direction, way[0], l.gather_integers(salts, number))), 0);
             for (lane, ray) in ray[..some.len()].iter().enumerate() {

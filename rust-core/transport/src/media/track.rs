@@ -149,8 +149,8 @@ impl<L: Lanes> Part<L> {
 impl<'a, L: Lanes> Track<'a, L> {
     /// Those of rays that are in some media, from their places on, at times of the shutter; `None` where nothing varies.
     #[inline(always)]
-    pub(crate) fn of(l: L, table: &'a MediumTable, media: MediaSet<L>, ray: [Vec3<L>; 2], time: F<L>) -> Option<Self> {
-        if table.varies() && media.varies(table).any() { Some(Self::new(l, table, &media, &(ray, time))) } else { None }
+    pub(crate) fn of(l: L, table: &'a MediumTable, media: MediaSet<L>, ray: [Vec3<L>; 2], time: impl FnOnce() -> F<L>) -> Option<Self> {
+        if table.varies() && media.varies(table).any() { Some(Self::new(l, table, &media, &(ray, time()))) } else { None }
     }
 
     #[inline(never)]

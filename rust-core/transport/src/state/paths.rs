@@ -204,7 +204,9 @@ impl Paths {
         let (media, from) = (self.media.gather(l, path), self.rays.passed.distance(l, path));
         let left = media.transmittance(&tables.materials.media, to - from);
         let (origin, direction) = (gather3(l, &self.rays.origin, path), self.cone(l, path).direction);
-        let Some(track) = Track::of(l, &tables.materials.media, media, [origin, direction], self.rays.times(l, path)) else { return left };
+        let Some(track) = Track::of(l, &tables.materials.media, media, [origin, direction], || self.rays.times(l, path)) else {
+            return left;
+        };
         // Light paths start anywhere: no two are alike.
         let salt = sample.map_or_else(|| l.u(0), |sample| sample.salt(l, self.track(l, path).slot));
         left * track.transmittance([from, to.min(FAR)], chosen, seed(origin, direction, from, salt))

@@ -50,7 +50,7 @@ fn pass_paths<L: Lanes>(
     let media = &context.tables.materials.media;
     for at in (0..paths.count).step_by(L::COUNT) {
         let Some(mut way) = Way::load(l, media, paths, &nearest.hits, at) else { continue };
-        let track = way.track(media);
+        let track = way.track(media, paths);
         let tracked = track.as_ref().map_or(l.m(false), |track| track.varies);
         if media.shines() {
             shine::add(context, &way, way.alive.and_not(tracked), deposits);
@@ -151,7 +151,7 @@ fn dim_paths<L: Lanes>(l: L, context: &MediumContext<'_>, paths: &mut Paths, nea
     let media = &context.tables.materials.media;
     for at in (0..paths.count).step_by(L::COUNT) {
         let Some(way) = Way::load(l, media, paths, &nearest.hits, at) else { continue };
-        let Some(track) = way.track(media) else { continue };
+        let Some(track) = way.track(media, paths) else { continue };
         let seed = seed(way.origin, way.direction, way.from, context.sample.salt(l, way.core.slot));
         let left = track.transmittance([way.from, way.from + way.length], way.alive, seed);
         flight::multiply(paths, at, left);
@@ -177,7 +177,7 @@ fn pass_light_paths<L: Lanes>(l: L, context: &MediumContext<'_>, paths: &mut Pat
         let media = &context.tables.materials.media;
         let Some(mut way) = Way::load(l, media, paths, hits, at).filter(|way| way.scatters.any()) else { continue };
         let mut flight = flight::draw(context, &way);
-        if let Some(track) = way.track(media) {
+        if let Some(track) = way.track(media, paths) {
             (flight, _) = pass_varying(context, &mut way, &track, &flight);
         }
         let scattered = way.scatters & flight.scatters;

@@ -22,7 +22,6 @@ pub(super) struct Way<L: Lanes> {
     pub(super) at: usize,
     pub(super) origin: Vec3<L>,
     pub(super) direction: Vec3<L>,
-    pub(super) time: F<L>,
     /// Metres from the origin at which it begins, and how many it is long.
     pub(super) from: F<L>,
     pub(super) length: F<L>,
@@ -63,7 +62,6 @@ impl<L: Lanes> Way<L> {
             at,
             origin: load3(l, &paths.rays.origin, at),
             direction: cone.direction,
-            time: paths.rays.times(l, path),
             from,
             length: (end - from).clamp(0.0, FAR),
             core,
@@ -77,10 +75,11 @@ impl<L: Lanes> Way<L> {
         })
     }
 
-    /// The media along it that vary.
+    /// The media along it that vary; the paths are those that it was loaded from.
     #[inline(always)]
-    pub(super) fn track<'a>(&self, table: &'a MediumTable) -> Option<Track<'a, L>> {
-        Track::of(self.pdf.lanes(), table, self.core.media, [self.origin, self.direction], self.time)
+    pub(super) fn track<'a>(&self, table: &'a MediumTable, paths: &Paths) -> Option<Track<'a, L>> {
+        let l = self.pdf.lanes();
+        Track::of(l, table, self.core.media, [self.origin, self.direction], || paths.rays.times(l, l.iota() + self.at as u32))
     }
 
     /// What even media leave of light after so many metres of it.
