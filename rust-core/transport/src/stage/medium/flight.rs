@@ -28,7 +28,7 @@ pub(super) struct Flight<L: Lanes> {
     through: Spectrum<L>,
 }
 
-/// Where light is sampled for ways through media that vary: one place for all where their flights might have ended.
+/// Where light is sampled for ways: where their flights end, or, through media that vary, at one place for all where they might have ended.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lit<L: Lanes> {
     pub(super) distance: F<L>,
@@ -38,6 +38,12 @@ pub(super) struct Lit<L: Lanes> {
 }
 
 impl<L: Lanes> Flight<L> {
+    /// Where they end before their ways do, as a place to be lit.
+    #[inline(always)]
+    pub(super) fn end(&self, way: &Way<L>) -> Lit<L> {
+        Lit { distance: self.distance, factor: self.factor.keep_if(self.scatters), phase: way.phase }
+    }
+
     /// Those of which tracking leaves nothing at the end of their way: what they would meet there is not seen.
     #[inline(always)]
     pub(super) fn is_absorbed(&self) -> M<L> {

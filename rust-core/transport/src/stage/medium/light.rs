@@ -6,6 +6,7 @@
 //! Importance Sampling Techniques for Path Tracing in Participating Media (2012).
 
 use super::context::MediumContext;
+use super::flight::Lit;
 use super::scatter::{flags, light_context};
 use super::way::Way;
 use crate::accumulate::deposit::{Contribution, Deposits, code_of_found};
@@ -139,12 +140,12 @@ pub(super) fn sample_along<L: Lanes>(
     }
 }
 
-/// Samples a light at a place of each chosen way, after so many metres of it and with a factor on what it carries, and queues the shadow ray to it.
+/// Samples a light at a place of each chosen way, where anything scatters there, and queues the shadow ray to it.
 #[inline(always)]
 pub(super) fn sample_at<L: Lanes>(
     context: &MediumContext<'_>,
     way: &Way<L>,
-    (distance, factor): (F<L>, Spectrum<L>),
+    lit: &Lit<L>,
     chosen: M<L>,
     shadows: &mut ShadowRays,
     deposits: &mut Deposits,
@@ -154,13 +155,13 @@ pub(super) fn sample_at<L: Lanes>(
         return;
     }
     let (l, slot) = (way.pdf.lanes(), way.core.slot);
-    let from = light_context(way.place(distance));
+    let from = light_context(way.place(lit.distance));
     let [u_light, _] = context.pair(l, slot, dimension::MEDIUM_LIGHT_CHOICE);
     let [u, v] = context.pair(l, slot, dimension::MEDIUM_LIGHT);
     let sample = kernels::sample_li(l, tables, transport.light_cache.as_deref(), &from, &[u_light, u, v]);
-    let usable = usable(context, way, &sample, chosen);
+    let usable = usable(context, way, &sample, chosen & lit.factor.is_lit());
     if usable.any() {
-        send_on(context, way, (&from, &sample, sample.pdf), factor, usable, shadows, deposits);
+        send_on(context, &Way { phase: lit.phase, ..*way }, (&from, &sample, sample.pdf), lit.factor, usable, shadows, deposits);
     }
 }
 

@@ -66,28 +66,19 @@ fn pass_paths<L: Lanes>(
         };
         light::sample_along(context, &way, going_on.and_not(at_places), &mut queues.shadows, deposits);
         let mut flight = flight::draw(context, &way);
-        let mut at_ends = at_places;
+        let mut lit = None;
         if let Some(track) = &track {
-            let lit;
-            (flight, lit) = match media.shines() {
+            let (flown, place) = match media.shines() {
                 true => pass_shining(context, &mut way, track, &flight, deposits),
                 false => pass_varying(context, &mut way, track, &flight),
             };
-            if context.transport.passes.deep.is_none() {
-                let place = Way { phase: lit.phase, ..way };
-                let scattering = going_on & tracked & lit.factor.is_lit();
-                light::sample_at(context, &place, (lit.distance, lit.factor), scattering, &mut queues.shadows, deposits);
-                at_ends = at_places.and_not(tracked);
-            }
+            (flight, lit) = (flown, Some(place));
         }
-        light::sample_at(
-            context,
-            &way,
-            (flight.distance, flight.factor),
-            going_on & at_ends & flight.scatters,
-            &mut queues.shadows,
-            deposits,
-        );
+        let lit = match (lit, context.transport.passes.deep.is_some()) {
+            (Some(lit), false) => lit,
+            _ => flight.end(&way),
+        };
+        light::sample_at(context, &way, &lit, going_on & at_places, &mut queues.shadows, deposits);
         let scattered = way.scatters & flight.scatters;
         let absorbed = (way.scatters & flight.is_absorbed()).and_not(scattered);
         scatter::add_seen(context, (&way, &flight), [scattered, absorbed], deposits);
