@@ -151,7 +151,9 @@ pub(crate) fn send<L: Lanes>(
     shadows: &mut ShadowRays,
     deposits: &mut Deposits,
 ) {
-    deposits.deposit(transport, light, lit.and_not(sample.casts_shadow));
+    let at_once = lit.and_not(sample.casts_shadow);
+    deposits.deposit(transport, light, at_once);
+    deposits.note_arrived(at, sample, light.value, at_once);
     let Contribution { slot, value: contribution, code, shares, .. } = *light;
     let receiver = if deposits.arrivals.is_some() { Some(at.receiver) } else { None };
     let ray = ShadowLanes { ray, contribution, slot, code, light: sample.light, shares, receiver, along };
