@@ -12,7 +12,7 @@ from .export import Exporter
 from .export.part import Part, frame_of
 from .report import Report
 
-ENDINGS = (".ldt", ".ies", ".xml")
+ENDINGS = (".ldt", ".ies", ".xml", ".gldf")
 
 
 @dataclass(frozen=True)
@@ -87,16 +87,16 @@ class Measurement:
         return f"{rays / 1e6:,.1f} M rays{reached}"
 
 
-def write(reading, path: Path, **options) -> dict:
-    """Writes a luminaire's file and gives its figures as its readers see them."""
-    reading.write(path, **options)
-    return gonio.goniogram_figures(path.read_bytes(), str(path))
+def write(reading, path: Path, **options) -> tuple[dict, list]:
+    """Writes a luminaire's file; gives its figures as its readers see them, and what it cannot hold."""
+    left_out = reading.write(path, **options)
+    return gonio.goniogram_figures(path.read_bytes(), str(path)), left_out
 
 
 def figures_of(reading, **options) -> dict:
     """The figures of the file that would be written."""
     with TemporaryDirectory() as folder:
-        return write(reading, Path(folder) / "luminaire.ldt", **options)
+        return write(reading, Path(folder) / "luminaire.ldt", **options)[0]
 
 
 def figure_lines(reading, figures) -> tuple[str, ...]:

@@ -98,11 +98,11 @@ class GONIO_OT_measure_luminaire(Beside, bpy.types.Operator):
     )
     filepath: StringProperty(
         name="File",
-        description="The luminaire's file: EULUMDAT (.ldt), IES (.ies) or TM-33 (.xml); without one the figures are told alone",
+        description="The luminaire's file: EULUMDAT (.ldt), IES (.ies), TM-33 (.xml) or GLDF (.gldf); without one the figures are told alone",
         subtype="FILE_PATH",
         options={"SKIP_SAVE"},
     )
-    filter_glob: StringProperty(default="*.ldt;*.ies;*.xml", description="Endings of luminaires' files", options={"HIDDEN"})
+    filter_glob: StringProperty(default="*.ldt;*.ies;*.xml;*.gldf", description="Endings of luminaires' files", options={"HIDDEN"})
     check_existing: BoolProperty(
         name="Check Existing", description="Warn where a file would be written over", default=True, options={"HIDDEN"}
     )
@@ -189,12 +189,13 @@ class GONIO_OT_measure_luminaire(Beside, bpy.types.Operator):
     def _publish(self, context, reading):
         luminaire, said = self._measurement.luminaire, self._measurement.report
         said.add_render(reading.diagnostics)
-        report.publish(said)
         options = {"symmetry": self.symmetry.lower(), "name": luminaire.name, "watts": self.watts or None}
         if self.filepath:
-            figures = goniophotometer.write(reading, Path(bpy.path.abspath(self.filepath)), **options)
+            figures, left_out = goniophotometer.write(reading, Path(bpy.path.abspath(self.filepath)), **options)
+            said.add_render(left_out)
         else:
             figures = goniophotometer.figures_of(reading, **options)
+        report.publish(said)
         lines = goniophotometer.figure_lines(reading, figures)
         measuring.latest.luminaire = (luminaire.name, *lines)
         if self.use_lamp:

@@ -2,7 +2,7 @@
 
 use super::{
     arguments::InfoOptions, explain, lamps_in_view, light_numbers, light_words::describe, messages::diagnostics_json, messages::print,
-    render::stage_options, stage::Stage, volume,
+    photometry, render::stage_options, stage::Stage, volume,
 };
 use gonio::{
     Diagnostic, Result,
@@ -14,10 +14,13 @@ use pyo3::prelude::*;
 use serde_json::{Value, json};
 use std::sync::atomic::AtomicBool;
 
-/// Reads the stage, lays it out, and says what would be rendered; of a volume file, what grids it holds.
+/// Reads the stage, lays it out, and says what would be rendered; of a volume file, what grids it holds; of a GLDF file, what its product is.
 pub(super) fn info(py: Python<'_>, options: &InfoOptions, interrupted: &AtomicBool) -> Result<i32> {
     if volume::is_volume(&options.stage.stage) {
         return py.detach(|| volume::info(options));
+    }
+    if photometry::is_product(&options.stage.stage) {
+        return py.detach(|| photometry::info(&options.stage.stage, options.json));
     }
     let mut stage_options = stage_options(&options.stage)?;
     // What is wrong is what is asked for here.

@@ -89,6 +89,11 @@ impl LineNumbers {
     }
 }
 
+/// A text as a name that identifiers may be: letters, digits, hyphens and underscores; it is to begin with a letter.
+pub(crate) fn nc_name(text: &str) -> String {
+    text.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' }).collect()
+}
+
 /// A problem at a node.
 pub(crate) fn at(node: Node<'_, '_>, problem: String) -> FormatError {
     FormatError::line(line(node), problem)

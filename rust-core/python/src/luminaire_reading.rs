@@ -11,10 +11,7 @@ use gonio::{
     measure,
     output::write_atomically,
 };
-use gonio_formats::photometry::{
-    Symmetry,
-    measured::{MeasurementHead, Reduced},
-};
+use gonio_formats::photometry::{Symmetry, is_date, measured::MeasurementHead};
 use pyo3::prelude::*;
 use std::{io::Write, path::PathBuf};
 
@@ -164,9 +161,11 @@ impl LuminaireReading {
     fn csv(&self) -> String {
         self.reading.csv()
     }
-    /// Writes EULUMDAT (.ldt), LM-63-2019 (.ies) or TM-33 (.xml). symmetry: "auto" (the highest that the errors bear out), "none", "rotational", "c0",
-    /// "c90" or "quadrants", whose equal intensities are averaged; without it that of the measurement.
-    #[pyo3(signature = (path, *, symmetry = None, name = None, manufacturer = "", watts = None))]
+    /// Writes EULUMDAT (.ldt), LM-63-2019 (.ies), TM-33 (.xml) or GLDF (.gldf: with the meshes, the lamps' colour and spectrum). symmetry: "auto" (the
+    /// highest that the errors bear out), "none", "rotational", "c0", "c90" or "quadrants", whose equal intensities are averaged; without it that of the
+    /// measurement. date: a day such as "2026-03-31". Returns what the file cannot hold, as (origin, message).
+    #[pyo3(signature = (path, *, symmetry = None, name = None, manufacturer = "", watts = None, date = ""))]
+    #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn write(
         &self,
         py: Python<'_>,
@@ -175,19 +174,25 @@ impl LuminaireReading {
         name: Option<String>,
         manufacturer: &str,
         watts: Option<f64>,
-    ) -> PyResult<()> {
+        date: &str,
+    ) -> PyResult<Vec<(String, String)>> {
+        if !date.is_empty() && !is_date(date) {
+            return Err(setting("date", format!("'{date}' was found, expected a day as 2026-03-31")));
+        }
         let name = name.unwrap_or_else(|| self.name.clone());
-        let head = MeasurementHead { name, manufacturer: manufacturer.to_owned(), ..MeasurementHead::default() };
+        let head = MeasurementHead { name, manufacturer: manufacturer.to_owned(), date: date.to_owned(), ..MeasurementHead::default() };
         let symmetry = symmetry.map_or(Ok(self.symmetry), symmetry_of)?;
         let reduced = self.reading.measurement(head, watts).reduced(symmetry).map_err(|error| setting("symmetry", error.problem))?;
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
-        let bytes = match ending.as_str() {
-            "ldt" => Reduced::to_ldt,
-            "ies" => Reduced::to_ies,
-            "xml" => Reduced::to_tm33,
-            _ => return Err(setting("path", format!("{}: the ending is '{ending}', expected ldt, ies or xml", path.display()))),
+        let (bytes, left_out) = match ending.as_str() {
+            "ldt" => (reduced.to_ldt(), Vec::new()),
+            "ies" => (reduced.to_ies(), Vec::new()),
+            "xml" => (reduced.to_tm33(), Vec::new()),
+            "gldf" => py.detach(|| self.reading.to_gldf(&reduced)).map_err(exception)?,
+            _ => return Err(setting("path", format!("{}: the ending is '{ending}', expected ldt, ies, xml or gldf", path.display()))),
         };
-        py.detach(|| write_atomically(&path, true, |file| file.write_all(&bytes(&reduced)))).map_err(exception)
+        py.detach(|| write_atomically(&path, true, |file| file.write_all(&bytes))).map_err(exception)?;
+        Ok(told(&left_out))
     }
     fn __repr__(&self) -> String {
         let (flux, peak) = (self.reading.fluxes.escaped.value, self.reading.peak.value);

@@ -4,6 +4,7 @@ use super::number::{count, finite};
 use super::{StageArguments, SymmetryName, WorkArguments};
 use clap::{Args, ValueEnum};
 use gonio::goniometer::MOST_RAYS;
+use gonio_formats::photometry::is_date;
 use std::path::PathBuf;
 
 /// The end of `gonio goniometer --help`.
@@ -14,6 +15,7 @@ Examples:
   gonio goniometer downlight.usda --luminaire /Downlight -o downlight.ldt -o downlight.ies --polar downlight.svg
   gonio goniometer office.usda --luminaire /Office/Lamp1 --c-step 15 --gammas 0:30:1,35:180:5 --error 0.5% -o lamp.ldt
   gonio goniometer lens.usda --luminaire /Lens --rays-file led.tm25ray@/Lens/Chip --csv colours.csv
+  gonio goniometer downlight.usda --luminaire /Downlight --name 'Downlight 150' --manufacturer ACME --watts 12 -o downlight.gldf
   gonio goniometer wallwasher.usda --luminaire /Washer --screen 0.5,2,2,64,64 --screen-csv screen.csv --json";
 
 #[derive(Args, Debug)]
@@ -23,9 +25,9 @@ pub(crate) struct GoniometerOptions {
     /// The luminaire: this prim and all below it; the rest of the stage is left out.
     #[arg(long, short = 'l', value_name = "PRIMPATH")]
     pub(crate) luminaire: String,
-    /// Write the luminaire as EULUMDAT, LM-63-2019 or TM-33; may be given several times. Its luminous opening is where light leaves: the mouth of an open
-    /// reflector, the sides that shine; of several parts one with their luminous area.
-    #[arg(long, short = 'o', value_name = "FILE.ldt|FILE.ies|FILE.xml")]
+    /// Write the luminaire as EULUMDAT, LM-63-2019, TM-33 or GLDF; may be given several times. Its luminous opening is where light leaves: the mouth of an open
+    /// reflector, the sides that shine; of several parts one with their luminous area. GLDF holds its meshes, its lamps' colour and their spectrum too.
+    #[arg(long, short = 'o', value_name = "FILE.ldt|FILE.ies|FILE.xml|FILE.gldf")]
     pub(crate) output: Vec<PathBuf>,
     /// The frame to measure.
     #[arg(long, short = 'f', value_name = "FRAME", allow_hyphen_values = true, value_parser = finite::<f64>)]
@@ -82,6 +84,9 @@ pub(crate) struct GoniometerOptions {
     /// Its maker in the files.
     #[arg(long, value_name = "TEXT", default_value = "")]
     pub(crate) manufacturer: String,
+    /// The day in the files; GLDF files without one are of 1980-01-01, so that the same luminaire makes the same file.
+    #[arg(long, value_name = "YYYY-MM-DD", value_parser = day)]
+    pub(crate) date: Option<String>,
     /// Its connected power in the files.
     #[arg(long, value_name = "WATTS", value_parser = finite::<f64>)]
     pub(crate) watts: Option<f64>,
@@ -93,6 +98,11 @@ pub(crate) struct GoniometerOptions {
     /// Write nothing but answers and errors.
     #[arg(long, short = 'q')]
     pub(crate) quiet: bool,
+}
+
+/// A day of the calendar.
+fn day(text: &str) -> Result<String, String> {
+    if is_date(text) { Ok(text.to_owned()) } else { Err("expected a day as 2026-03-31".into()) }
 }
 
 /// The symmetry of the files.

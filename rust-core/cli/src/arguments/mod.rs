@@ -125,7 +125,7 @@ pub(super) enum Command {
     Merge(MergeArguments),
     /// Say what would be rendered: counts, memory, lights with units, what is unsupported.
     ///
-    /// Of an OpenVDB (.vdb) or NanoVDB (.nvdb) file, say what grids it holds: types, voxels, bounds, memory.
+    /// Of an OpenVDB (.vdb) or NanoVDB (.nvdb) file, say what grids it holds: types, voxels, bounds, memory. Of a GLDF file, say what its product is.
     Info(Box<InfoOptions>),
     /// Compare two EXR files: relative mean squared error and block differences.
     Compare(CompareOptions),

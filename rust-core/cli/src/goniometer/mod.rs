@@ -30,7 +30,7 @@ use gonio_formats::photometry::{
 use gonio_simd::Execution;
 use gonio_usd::SampleTime;
 use pyo3::prelude::*;
-use std::{sync::atomic::AtomicBool, time::Duration};
+use std::{borrow::Cow, sync::atomic::AtomicBool, time::Duration};
 
 /// The longest time limit, in seconds.
 const LONGEST: f64 = 1e9;
@@ -53,7 +53,7 @@ pub(super) fn goniometer(py: Python<'_>, options: &GoniometerOptions, interrupte
 
 /// Refuses files of other kinds, and those that cannot be written, before anything is traced.
 fn check_files(options: &GoniometerOptions) -> Result<()> {
-    options.output.iter().try_for_each(|path| check_ending("output", path, &["ldt", "ies", "xml"]))?;
+    options.output.iter().try_for_each(|path| check_ending("output", path, &["ldt", "ies", "xml", "gldf"]))?;
     options.polar.iter().try_for_each(|path| check_ending("polar", path, drawing::ENDINGS))?;
     let tables = [("csv", &options.csv), ("screen-csv", &options.screen_csv)];
     tables.into_iter().try_for_each(|(option, path)| path.iter().try_for_each(|path| check_ending(option, path, &["csv"])))?;
@@ -95,13 +95,16 @@ fn run(
     diagnostics.extend(reading.diagnostics.iter().cloned());
     let origin = Origin::new(&options.luminaire);
     diagnostics.extend(reduced.goniogram.warnings.iter().map(|warning| Diagnostic::warning(&origin, warning.to_string())));
+    let product = options.output.iter().any(|path| ending(path) == "gldf").then(|| reading.to_gldf(&reduced)).transpose()?;
+    let (product, left_out) = product.unzip();
+    diagnostics.extend(left_out.into_iter().flatten());
     if options.stage.strict
         && let Some(first) = diagnostics.iter().find(|diagnostic| diagnostic.severity == gonio::Severity::Warning)
     {
         return Err(Error::scene(&first.origin, first.message.clone()));
     }
     tell(&options.stage, options.quiet, &diagnostics);
-    write(options, &reading, &reduced)?;
+    write(options, &reading, &reduced, &product.unwrap_or_default())?;
     if options.json {
         print(&json::as_json(options, &reading, &reduced, &diagnostics).to_string());
     } else {
@@ -137,19 +140,25 @@ fn show(reporter: &mut Reporter, progress: &Progress, what: &Options) {
 /// The goniogram with the symmetry that was asked for.
 fn reduced(options: &GoniometerOptions, reading: &Reading) -> Result<Reduced> {
     let name = options.name.clone().unwrap_or_else(|| options.luminaire.rsplit('/').next().unwrap_or_default().to_owned());
-    let head = MeasurementHead { name, manufacturer: options.manufacturer.clone(), ..MeasurementHead::default() };
+    let head = MeasurementHead {
+        name,
+        manufacturer: options.manufacturer.clone(),
+        date: options.date.clone().unwrap_or_default(),
+        ..MeasurementHead::default()
+    };
     let measurement = reading.measurement(head, options.watts);
     let symmetry = options.symmetry.forced().map(SymmetryName::into);
     measurement.reduced(symmetry).map_err(|error| Error::setting("luminaire", error.problem))
 }
 
-/// Writes all files that were asked for.
-fn write(options: &GoniometerOptions, reading: &Reading, reduced: &Reduced) -> Result<()> {
+/// Writes all files that were asked for; `product` are the bytes of those that end with `.gldf`.
+fn write(options: &GoniometerOptions, reading: &Reading, reduced: &Reduced, product: &[u8]) -> Result<()> {
     for path in &options.output {
         let bytes = match ending(path).as_str() {
-            "ldt" => reduced.to_ldt(),
-            "ies" => reduced.to_ies(),
-            _ => reduced.to_tm33(),
+            "ldt" => Cow::Owned(reduced.to_ldt()),
+            "ies" => Cow::Owned(reduced.to_ies()),
+            "xml" => Cow::Owned(reduced.to_tm33()),
+            _ => Cow::Borrowed(product),
         };
         put(path, &bytes)?;
     }

@@ -35,7 +35,7 @@ pub(super) fn photometry(options: &PhotometryOptions) -> Result<i32> {
     let (path, variant) = chosen(options);
     let bytes = file::read(path, LONGEST, "luminaire's file")?;
     if gldf::looks_like(&bytes) && variant.is_none() && !options.ugr_table && outputs(options).next().is_none() {
-        return list(options, path, &bytes);
+        return list(path, &bytes, options.json);
     }
     let goniogram = load(options, path, variant, &bytes)?;
     let figures = goniogram.figures();
@@ -68,10 +68,20 @@ fn chosen(options: &PhotometryOptions) -> (&Path, Option<&str>) {
     (path, options.variant.as_deref().or(variant))
 }
 
+/// Whether a file is a product by its ending.
+pub(super) fn is_product(path: &Path) -> bool {
+    ending(path) == "gldf"
+}
+
+/// Lists the variants of a product's file.
+pub(super) fn info(path: &Path, json: bool) -> Result<i32> {
+    list(path, &file::read(path, LONGEST, "luminaire's file")?, json)
+}
+
 /// Lists the variants of a product.
-fn list(options: &PhotometryOptions, path: &Path, bytes: &[u8]) -> Result<i32> {
+fn list(path: &Path, bytes: &[u8], json: bool) -> Result<i32> {
     let product = Gldf::read(bytes).map_err(|error| Error::in_file(path, &error))?;
-    if options.json {
+    if json {
         print(&product_json::as_json(path, &product).to_string());
     } else {
         product::as_text(&product).iter().for_each(|line| print(line));

@@ -1,6 +1,6 @@
 //! What was measured.
 
-use super::{angles::Angles, colour, frame::Frame, opening::Opening, screen::Screen};
+use super::{angles::Angles, colour, frame::Frame, opening::Opening, product::Product, screen::Screen};
 use crate::{error::Diagnostic, light_paths::Channels, transport::Statistics};
 use gonio_formats::photometry::measured::{Measurement, MeasurementHead};
 use std::time::Duration;
@@ -83,6 +83,8 @@ pub struct Reading {
     pub opening: Opening,
     /// Least and greatest coordinates of all that belongs to the luminaire, in the frame, metres.
     pub body: [[f64; 3]; 2],
+    /// What of the luminaire a product's file has beside its photometry.
+    pub product: Product,
     /// Illuminance on the screen, if one was asked for.
     pub screen: Option<ScreenReading>,
     /// Paths that were traced.

@@ -1,7 +1,7 @@
 //! A measurement under way: rounds of batches until it is exact enough, and the reading at the end.
 
 use super::{
-    Opening, Options, Reading,
+    Opening, Options, Product, Reading,
     angles::Cell,
     opening::Departure,
     reading::{Fluxes, ScreenReading, Value},
@@ -169,6 +169,7 @@ impl<'a> Run<'a> {
             escaped_rgb: self.flux(Flux::Escaped).mean,
             opening: Opening::of(&departures),
             body: if body.is_empty() { [[0.0; 3]; 2] } else { [body.min, body.max] },
+            product: Product::default(),
             screen: self.screen(),
             paths: self.batches * self.parts.len() as u64 * LIGHT_BATCH as u64,
             elapsed: self.start.elapsed(),

@@ -1,7 +1,7 @@
 //! A measurement from the scene to its reading.
 
 use super::{
-    Options, Progress, Reading, angles::Cells, reading::Fluxes, rounds::Run, screen::ScreenPlane, shining::Sources, sources,
+    Options, Product, Progress, Reading, angles::Cells, reading::Fluxes, rounds::Run, screen::ScreenPlane, shining::Sources, sources,
     tally::Instrument,
 };
 use crate::{
@@ -59,6 +59,7 @@ pub fn measure(
     run.trace(&compiled, &unlimited(&compiled, &options, execution), cancel, progress)?;
     let mut reading = run.reading(&body)?;
     reading.diagnostics = diagnostics;
+    reading.product = Product::of(&scene, &options.frame.from_world());
     report_losses(&mut reading);
     reading.fluxes = reading.fluxes.bounded();
     Ok(reading)

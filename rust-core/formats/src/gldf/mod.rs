@@ -9,11 +9,13 @@ mod geometry;
 mod light;
 mod read;
 mod total;
+mod write;
 
 use crate::archive::Archive;
 use crate::error::FormatError;
 
 pub use light::{Emergency, Light, RatedFlux};
+pub use write::{NewProduct, ProductColour, ProductFigures};
 
 /// The name of the file of an archive that holds the product.
 const PRODUCT: &str = "product.xml";

@@ -172,6 +172,10 @@ fn weight(rated: Option<RatedFlux>, part: &Part) -> (f64, Option<String>) {
         return (1.0, Some("has no light".into()));
     }
     let differs = (rated / own - 1.0).abs() > ROUNDED;
+    // Products state whole lumens, which of weak lights are far from their own.
+    if differs && rated.fract() == 0.0 && (rated - own).abs() <= 0.5 {
+        return (1.0, None);
+    }
     let told = || format!("the {whose} flux is {own:.1} lm here, the product rates it {} lm: that counts", number(rated));
     (rated / own, differs.then(told))
 }

@@ -3,6 +3,7 @@
 
 mod place;
 mod read;
+mod write;
 
 use crate::archive::Archive;
 use crate::error::{FormatError, Result};
@@ -10,6 +11,7 @@ use crate::photometry::text::{number, quote};
 use crate::polygons::{self, Polygons};
 
 pub use place::Place;
+pub use write::{NewModel, NewPart};
 
 /// The name of the file of an archive that holds the structure.
 const STRUCTURE: &str = "structure.xml";

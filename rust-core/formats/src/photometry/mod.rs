@@ -40,6 +40,7 @@ pub use goniogram::{Goniogram, HeaderLine, LampSet, PhotometricType, Stated, Sym
 pub use grid::Grid;
 pub use opening::{Opening, OpeningShape};
 pub use polar::{PolarUnit, polar_diagram};
+pub use text::is_date;
 pub use ugr::{CATALOGUE_SPACING, NoIndex, REFLECTANCES, ROOMS, SPACINGS, UgrTable, position_index};
 pub use zones::{Bug, Zones};
 

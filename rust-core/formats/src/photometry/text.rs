@@ -104,9 +104,36 @@ pub(crate) fn one_line(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect::<String>().trim().to_owned()
 }
 
+/// Whether a text is a day of the calendar, such as 2025-03-31.
+pub fn is_date(text: &str) -> bool {
+    let digits =
+        |part: &str, count: usize| part.parse::<u32>().ok().filter(|_| part.len() == count && part.bytes().all(|b| b.is_ascii_digit()));
+    let parts: Vec<&str> = text.split('-').collect();
+    let [year, month, day] = parts[..] else { return false };
+    let (Some(year), Some(month), Some(day)) = (digits(year, 4), digits(month, 2), digits(day, 2)) else { return false };
+    let leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+    let days = match month {
+        2 => 28 + u32::from(leap),
+        4 | 6 | 9 | 11 => 30,
+        1..=12 => 31,
+        _ => 0,
+    };
+    (1..=days).contains(&day)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn days_are_those_of_the_calendar() {
+        assert!(["2025-03-31", "2024-02-29", "2000-02-29"].iter().all(|day| is_date(day)));
+        assert!(
+            ["", "2025-3-31", "2025-02-29", "1900-02-29", "2025-13-01", "2025-01-00", "+025-01-01", "2025-01-01-01"]
+                .iter()
+                .all(|day| !is_date(day))
+        );
+    }
 
     #[test]
     fn lines_end_in_three_ways() {

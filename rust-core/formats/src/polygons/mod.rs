@@ -4,8 +4,11 @@ mod obj;
 mod ply;
 mod ply_body;
 mod ply_header;
+mod write;
 
 use crate::{FormatError, error::Result};
+
+pub use write::to_obj;
 
 /// Polygons, with values of their corners.
 #[derive(Clone, Debug, Default, PartialEq)]

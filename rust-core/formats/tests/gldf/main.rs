@@ -5,6 +5,7 @@ mod bad_input;
 mod light;
 mod model;
 mod samples;
+mod write;
 mod zip;
 
 use std::f64::consts::PI;

@@ -373,7 +373,8 @@ class LuminaireReading:
         name: str | None = None,
         manufacturer: str = "",
         watts: float | None = None,
-    ) -> None: ...
+        date: str = "",
+    ) -> list[tuple[str, str]]: ...
 
 def goniometer(
     source: Scene | str | PathLike[str],

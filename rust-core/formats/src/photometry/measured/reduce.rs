@@ -212,7 +212,7 @@ impl Reduced {
     }
 
     /// The goniogram with the luminaire's own flux instead of the sources'.
-    fn absolute(&self) -> Goniogram {
+    pub(super) fn absolute(&self) -> Goniogram {
         let mut goniogram = self.goniogram.clone();
         for lamps in &mut goniogram.lamp_sets {
             lamps.absolute = true;

@@ -1,6 +1,6 @@
 //! The writer.
 
-use crate::photometry::text::{number, one_line};
+use crate::photometry::text::{is_date, number, one_line};
 use crate::photometry::{Goniogram, PhotometricType, Symmetry};
 use crate::svg::escape;
 use std::borrow::Cow;
@@ -33,13 +33,6 @@ fn header(goniogram: &Goniogram) -> String {
     body += &date.map(|date| element("ReportDate", date)).unwrap_or_default();
     body.extend(goniogram.header.iter().filter(|line| line.keyword == "OTHER").map(|line| element("Comment", &line.text)));
     format!("<Header>\n{body}</Header>\n")
-}
-
-/// Whether a text is a year, a month and a day.
-fn is_date(text: &str) -> bool {
-    let parts: Vec<&str> = text.split('-').collect();
-    let digits = |part: &str, count: usize| part.len() == count && part.bytes().all(|byte| byte.is_ascii_digit());
-    matches!(parts[..], [year, month, day] if digits(year, 4) && digits(month, 2) && digits(day, 2))
 }
 
 fn luminaire(goniogram: &Goniogram) -> String {

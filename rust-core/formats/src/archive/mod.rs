@@ -1,4 +1,7 @@
-//! ZIP archives that nobody vouches for, read from memory: stored and deflated files, each within what is said of its size.
+//! ZIP archives that nobody vouches for, read from memory: stored and deflated files, each within what is said of its size; and those that are
+//! written.
+
+mod write;
 
 use crate::error::{FormatError, Result};
 use crate::photometry::text::quote;
@@ -6,8 +9,10 @@ use miniz_oxide::inflate::decompress_to_vec_with_limit;
 use rawzip::{CompressionMethod, ZipArchive, ZipArchiveEntryWayfinder, ZipSliceArchive};
 use std::collections::HashMap;
 
+pub(crate) use write::packed;
+
 /// Bytes of the longest file of an archive: tens of times the longest mesh of a luminaire.
-const LONGEST: u64 = 64 << 20;
+pub(crate) const LONGEST: u64 = 64 << 20;
 
 /// A deflated byte becomes 1032 at most.
 const RATIO: u64 = 1032;
