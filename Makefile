@@ -11,7 +11,7 @@ export PYO3_PYTHON := $(BIN)/python
 # Blender as a Python package, in the versions that Python 3.11 can load.
 BPY := $(CURDIR)/.venv-bpy45 $(CURDIR)/.venv-bpy50
 
-FUZZED := ies ldt tm33 goniogram gldf gldf-product l3d l3d-structure rays weather merl utia rgl pbrdf bsdf-xml zemax gbsdf measured polygons
+FUZZED := ies ldt tm33 goniogram gldf gldf-product l3d l3d-structure gdtf gdtf-description rays weather merl utia rgl pbrdf bsdf-xml zemax gbsdf measured polygons
 
 .PHONY: fuzz build dev render extension blender cross-check arm wheels lint-workflows test test-levels test-quick test-rust test-python test-blender lint compare-cycles validation validate same-bits bench bench-peers bench-caustics docs clean
 

@@ -189,13 +189,13 @@ class GONIO_OT_measure_luminaire(Beside, bpy.types.Operator):
     def _publish(self, context, reading):
         luminaire, said = self._measurement.luminaire, self._measurement.report
         said.add_render(reading.diagnostics)
+        report.publish(said)
         options = {"symmetry": self.symmetry.lower(), "name": luminaire.name, "watts": self.watts or None}
         if self.filepath:
             figures, left_out = goniophotometer.write(reading, Path(bpy.path.abspath(self.filepath)), **options)
-            said.add_render(left_out)
+            said.add_render([*reading.diagnostics, *left_out])
         else:
             figures = goniophotometer.figures_of(reading, **options)
-        report.publish(said)
         lines = goniophotometer.figure_lines(reading, figures)
         measuring.latest.luminaire = (luminaire.name, *lines)
         if self.use_lamp:

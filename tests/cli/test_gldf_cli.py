@@ -111,7 +111,7 @@ def test_names_that_are_none(run, lamp, tmp_path):
     assert "no variant 'wide' was found among 2: 'low', 'high'" in wrong.stderr
     plain = tmp_path / "lamp.ldt"
     plain.write_text(photometry())
-    assert "the file is no GLDF archive" in run("photometry", plain, "--variant", "wide").stderr
+    assert "the file is no GLDF or GDTF archive" in run("photometry", plain, "--variant", "wide").stderr
 
 
 @pytest.mark.parametrize(

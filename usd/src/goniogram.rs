@@ -10,7 +10,7 @@ use gonio::scene::{Goniogram, Origin, PhotometricType};
 use gonio_formats::{FormatError, photometry};
 use std::{f64::consts::PI, sync::Arc};
 
-/// The attribute that names the variant of a GLDF file.
+/// The attribute that names the variant of a GLDF file, or the mode of a GDTF file.
 const VARIANT: &str = "gonio:photometry:variant";
 
 /// What a light asks of its file.

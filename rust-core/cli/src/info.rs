@@ -14,7 +14,7 @@ use pyo3::prelude::*;
 use serde_json::{Value, json};
 use std::sync::atomic::AtomicBool;
 
-/// Reads the stage, lays it out, and says what would be rendered; of a volume file, what grids it holds; of a GLDF file, what its product is.
+/// Reads the stage, lays it out, and says what would be rendered; of a volume file, what grids it holds; of a GLDF or GDTF file, what its product is.
 pub(super) fn info(py: Python<'_>, options: &InfoOptions, interrupted: &AtomicBool) -> Result<i32> {
     if volume::is_volume(&options.stage.stage) {
         return py.detach(|| volume::info(options));

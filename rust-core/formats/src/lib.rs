@@ -7,6 +7,7 @@
 #![forbid(unsafe_code)]
 
 pub mod bsdf;
+pub mod gdtf;
 pub mod gldf;
 pub mod l3d;
 pub mod photometry;

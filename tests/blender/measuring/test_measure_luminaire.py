@@ -170,6 +170,33 @@ def test_a_lamp_takes_the_file(tmp_path: Path):
 
 
 @pytest.mark.blender
+def test_a_product_has_the_meshes_and_lamps_take_it(tmp_path: Path):
+    import importlib
+    import math
+    import zipfile
+    from io import BytesIO
+
+    import bpy
+    import scenes
+
+    scenes.empty()
+    tube = open_cylinder()
+    lamp = disk_lamp()
+    lamp.parent = tube
+    bpy.context.view_layer.objects.active = tube
+    measure(filepath=str(tmp_path / "tube.gldf"), kind="CHILDREN", use_lamp=True)
+    with zipfile.ZipFile(tmp_path / "tube.gldf") as product:
+        assert product.namelist() == ["product.xml", "ldc/luminaire.ldt", "geo/luminaire.l3d"]
+        with zipfile.ZipFile(BytesIO(product.read("geo/luminaire.l3d"))) as model:
+            mesh = model.read("part1-Tube/part1-Tube.obj").decode().splitlines()
+    assert len([line for line in mesh if line.startswith("v ")]) == 512
+    (copy,) = (thing for thing in bpy.data.objects if thing.type == "LIGHT" and thing != lamp)
+    assert math.isclose(copy.data.gonio.quantity, cut(tmp_path / "tube.gldf")[2]["flux_lm"], rel_tol=1e-3)
+    said = importlib.import_module("gonio_extension.report").latest().diagnostics
+    assert len([line for line in said if "0 W stands there" in line.message]) == 1, said
+
+
+@pytest.mark.blender
 def test_what_cannot_be_measured_is_told(tmp_path: Path):
     import bpy
     import scenes

@@ -125,13 +125,13 @@ pub(super) enum Command {
     Merge(MergeArguments),
     /// Say what would be rendered: counts, memory, lights with units, what is unsupported.
     ///
-    /// Of an OpenVDB (.vdb) or NanoVDB (.nvdb) file, say what grids it holds: types, voxels, bounds, memory. Of a GLDF file, say what its product is.
+    /// Of an OpenVDB (.vdb) or NanoVDB (.nvdb) file, say what grids it holds: types, voxels, bounds, memory. Of a GLDF or GDTF file, say what its product is.
     Info(Box<InfoOptions>),
     /// Compare two EXR files: relative mean squared error and block differences.
     Compare(CompareOptions),
     /// Dim and recolour the light groups of a rendered EXR file.
     Relight(RelightOptions),
-    /// Say what an IES, EULUMDAT, TM-33 or GLDF file holds: flux, efficacy, beam and field angle, problems; draw and convert it.
+    /// Say what an IES, EULUMDAT, TM-33, GLDF or GDTF file holds: flux, efficacy, beam and field angle, problems; draw and convert it.
     Photometry(PhotometryOptions),
     /// Say what a lamp's spectrum means: chromaticity, CCT, Ra, TM-30's Rf and Rg, melanopic DER, lm/W; draw it with the colour vectors.
     ///

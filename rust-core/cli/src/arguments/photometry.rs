@@ -7,9 +7,9 @@ use std::path::PathBuf;
 
 #[derive(Args, Debug)]
 pub(crate) struct PhotometryOptions {
-    /// The luminaire: an IES LM-63, EULUMDAT, TM-33 or GLDF file. Of a GLDF file without a variant the variants are listed.
+    /// The luminaire: an IES LM-63, EULUMDAT, TM-33, GLDF or GDTF file. Of a GLDF file without a variant the variants are listed, of a GDTF file the modes.
     pub(crate) file: PathBuf,
-    /// The variant of a GLDF file: its name in any language, order number, GTIN or identifier, or its number from 1. FILE.gldf#NAME is the same.
+    /// The variant of a GLDF file: its name in any language, order number, GTIN or identifier, or its number from 1. FILE.gldf#NAME is the same. Of a GDTF file the mode: its name or number.
     #[arg(long, value_name = "NAME|NUMBER")]
     pub(crate) variant: Option<String>,
     /// For machines.

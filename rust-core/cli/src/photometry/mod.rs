@@ -1,5 +1,7 @@
 //! `gonio photometry`.
 
+mod fixture;
+mod fixture_json;
 mod json;
 mod product;
 mod product_json;
@@ -16,6 +18,7 @@ use super::{
     messages::print,
 };
 use gonio::{Error, Result};
+use gonio_formats::gdtf::{self, Gdtf};
 use gonio_formats::gldf::{self, Gldf, split_variant};
 use gonio_formats::photometry::{
     Goniogram, PolarUnit, SPACINGS, Symmetry, UgrTable, beside, cone_diagram, ies, ldt, polar_diagram, read_variant,
@@ -68,18 +71,27 @@ fn chosen(options: &PhotometryOptions) -> (&Path, Option<&str>) {
     (path, options.variant.as_deref().or(variant))
 }
 
-/// Whether a file is a product by its ending.
+/// Whether a file is a product or a fixture by its ending.
 pub(super) fn is_product(path: &Path) -> bool {
-    ending(path) == "gldf"
+    ["gldf", "gdtf"].contains(&ending(path).as_str())
 }
 
-/// Lists the variants of a product's file.
+/// Lists the variants of a product's file, or the modes of a fixture's.
 pub(super) fn info(path: &Path, json: bool) -> Result<i32> {
     list(path, &file::read(path, LONGEST, "luminaire's file")?, json)
 }
 
-/// Lists the variants of a product.
+/// Lists the variants of a product, or the modes of a fixture.
 fn list(path: &Path, bytes: &[u8], json: bool) -> Result<i32> {
+    if gdtf::is_fixture(bytes, &path.to_string_lossy()) {
+        let fixture = Gdtf::read(bytes).map_err(|error| Error::in_file(path, &error))?;
+        if json {
+            print(&fixture_json::as_json(path, &fixture).to_string());
+        } else {
+            fixture::as_text(&fixture).iter().for_each(|line| print(line));
+        }
+        return Ok(0);
+    }
     let product = Gldf::read(bytes).map_err(|error| Error::in_file(path, &error))?;
     if json {
         print(&product_json::as_json(path, &product).to_string());

@@ -14,7 +14,9 @@ use super::{
 use gonio::{Error, Result};
 use gonio_formats::{
     FormatError,
+    gdtf::{self, Gdtf, GdtfEmitter},
     gldf::{self, Gldf, GldfSpectrum},
+    tame,
 };
 use gonio_spectrum::{Figures, NAMES, Spectrum, figures, named, read, spectrum_drawing};
 use serde_json::Value;
@@ -91,8 +93,11 @@ fn lamp(asked: String, spectrum: Spectrum) -> Lamp {
     Lamp { asked, spectrum, figures }
 }
 
-/// The spectra of a GLDF file, each under its identifier.
+/// The spectra of a GLDF file, each under its identifier, or of a GDTF file's emitters under their names.
 fn of_product(source: &Path, bytes: &[u8]) -> std::result::Result<Vec<Lamp>, FormatError> {
+    if gdtf::is_fixture(bytes, &source.to_string_lossy()) {
+        return of_fixture(source, bytes);
+    }
     let product = Gldf::read(bytes)?;
     if product.spectra.is_empty() {
         return Err(FormatError::whole("the product has no spectrum"));
@@ -106,4 +111,19 @@ fn of_product(source: &Path, bytes: &[u8]) -> std::result::Result<Vec<Lamp>, For
         Ok(lamp(format!("{}: {}", source.display(), found.id), read))
     };
     product.spectra.iter().map(spectrum).collect()
+}
+
+fn of_fixture(source: &Path, bytes: &[u8]) -> std::result::Result<Vec<Lamp>, FormatError> {
+    let fixture = Gdtf::read(bytes)?;
+    let measured: Vec<&GdtfEmitter> = fixture.emitters.iter().filter(|emitter| !emitter.spectrum.is_empty()).collect();
+    if measured.is_empty() {
+        return Err(FormatError::whole("none of the fixture's emitters has a spectrum"));
+    }
+    let spectrum = |found: &&GdtfEmitter| {
+        let (nm, power): (Vec<f64>, Vec<f64>) = found.spectrum.iter().copied().unzip();
+        let read = Spectrum::new(&found.name, &nm, &power);
+        let read = read.map_err(|error| FormatError::whole(format!("emitter {}: {error}", tame(&found.name))))?;
+        Ok(lamp(format!("{}: {}", source.display(), found.name), read))
+    };
+    measured.iter().map(spectrum).collect()
 }

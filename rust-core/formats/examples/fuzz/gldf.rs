@@ -69,7 +69,7 @@ fn l3d(structure: &[u8]) -> Vec<u8> {
 }
 
 /// An archive of files as they are (APPNOTE 6.3).
-fn stored(files: &[(&str, &[u8])]) -> Vec<u8> {
+pub(crate) fn stored(files: &[(&str, &[u8])]) -> Vec<u8> {
     let (mut bytes, mut directory) = (Vec::new(), Vec::new());
     for (name, content) in files {
         let mut common = vec![20, 0, 0, 8, 0, 0, 0, 0, 0, 0];

@@ -4,6 +4,7 @@
 //! the input's size and a fixed part is a finding: its bytes are written to `fuzz-READER-SEED.bin`, and the run ends with status 1.
 
 mod bsdf;
+mod gdtf;
 mod gldf;
 mod memory;
 mod mutate;
@@ -42,7 +43,8 @@ pub struct Reader {
 
 /// All readers of the crate.
 fn readers() -> Vec<Reader> {
-    [photometry::readers(), bsdf::readers(), rays::readers(), weather::readers(), polygons::readers(), gldf::readers()].concat()
+    [photometry::readers(), bsdf::readers(), rays::readers(), weather::readers(), polygons::readers(), gldf::readers(), gdtf::readers()]
+        .concat()
 }
 
 /// The input at work and since when, for the watchdog.

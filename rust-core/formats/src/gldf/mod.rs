@@ -18,7 +18,7 @@ pub use light::{Emergency, Light, RatedFlux};
 pub use write::{NewProduct, ProductColour, ProductFigures};
 
 /// The name of the file of an archive that holds the product.
-const PRODUCT: &str = "product.xml";
+pub(crate) const PRODUCT: &str = "product.xml";
 
 /// A product, with its archive.
 #[derive(Debug)]
@@ -164,11 +164,12 @@ pub fn looks_like(bytes: &[u8]) -> bool {
     crate::archive::looks_like(bytes)
 }
 
-/// A file's path and the variant that is asked for after it: `lamp.gldf#wide` is `lamp.gldf` and `wide`.
+/// A file's path and the variant, or of a GDTF file the mode, that is asked for after it: `lamp.gldf#wide` is `lamp.gldf` and `wide`.
 pub fn split_variant(path: &str) -> (&str, Option<&str>) {
-    const ENDING: &[u8] = b".gldf#";
-    let at = path.as_bytes().windows(ENDING.len()).position(|part| part.eq_ignore_ascii_case(ENDING));
-    match at.map(|at| at + ENDING.len()) {
+    const ENDINGS: [&[u8]; 2] = [b".gldf#", b".gdtf#"];
+    let length = ENDINGS[0].len();
+    let at = path.as_bytes().windows(length).position(|part| ENDINGS.iter().any(|ending| part.eq_ignore_ascii_case(ending)));
+    match at.map(|at| at + length) {
         Some(after) => (&path[..after - 1], Some(&path[after..]).filter(|variant| !variant.is_empty())),
         None => (path, None),
     }

@@ -1,6 +1,6 @@
 //! Goniograms: luminous intensity by direction, as luminaires' makers hand it out.
 //!
-//! [`read`] takes IES LM-63 (1986, 1991, 1995, 2002, 2019), EULUMDAT, TM-33 and GLDF files and gives one [`Goniogram`] in candela and metres;
+//! [`read`] takes IES LM-63 (1986, 1991, 1995, 2002, 2019), EULUMDAT, TM-33, GLDF and GDTF files and gives one [`Goniogram`] in candela and metres;
 //! [`ies`], [`ldt`] and [`tm33`] hold the formats' readers and writers, [`measured`] makes goniograms of what was counted,
 //! [`polar_diagram`] and [`cone_diagram`] are the two drawings that lighting people look for.
 //!
@@ -45,11 +45,12 @@ pub use ugr::{CATALOGUE_SPACING, NoIndex, REFLECTANCES, ROOMS, SPACINGS, UgrTabl
 pub use zones::{Bug, Zones};
 
 use crate::error::{FormatError, Result};
+use crate::gdtf::{self, Gdtf};
 use crate::gldf::{self, Gldf};
 use crate::tame;
 
-/// Reads an IES, EULUMDAT, TM-33 or GLDF file; its content decides, and where that is not clear the ending of `name`. Of a GLDF file the variant
-/// is read that stands after the name (`lamp.gldf#wide`), else the first.
+/// Reads an IES, EULUMDAT, TM-33, GLDF or GDTF file; its content decides, and where that is not clear the ending of `name`. Of a GLDF file the
+/// variant and of a GDTF file the mode is read that stands after the name (`lamp.gldf#wide`), else the first.
 ///
 /// # Errors
 /// What the format's own reader says, or that the bytes are neither.
@@ -65,16 +66,19 @@ pub fn read_with(bytes: &[u8], name: &str, beside: &mut Beside<'_>) -> Result<Go
     read_variant(bytes, name, gldf::split_variant(name).1, beside)
 }
 
-/// The same, for a variant that is named apart ([`Gldf::variant`] says how); without one the first.
+/// The same, for a variant or a mode that is named apart ([`Gldf::variant`] and [`Gdtf::mode`] say how); without one the first.
 ///
 /// # Errors
-/// As [`read`], or a variant of what is no GLDF file.
+/// As [`read`], or a variant of what is neither.
 pub fn read_variant(bytes: &[u8], name: &str, asked: Option<&str>, beside: &mut Beside<'_>) -> Result<Goniogram> {
     if !gldf::looks_like(bytes) {
         return match asked {
             None => read_single(bytes, name, beside),
-            Some(_) => Err(FormatError::whole("a variant was asked for, but the file is no GLDF archive")),
+            Some(_) => Err(FormatError::whole("a variant was asked for, but the file is no GLDF or GDTF archive")),
         };
+    }
+    if gdtf::is_fixture(bytes, gldf::split_variant(name).0) {
+        return read_fixture(bytes, asked);
     }
     let product = Gldf::read(bytes)?;
     let chosen = product.variant(asked)?;
@@ -84,6 +88,15 @@ pub fn read_variant(bytes: &[u8], name: &str, asked: Option<&str>, beside: &mut 
         let told = format!("the first of {} variants is taken, '{name}'", product.variants.len());
         found.warnings.insert(0, FormatError::whole(told));
     }
+    Ok(found)
+}
+
+/// Reads a stage fixture: the light of a mode.
+fn read_fixture(bytes: &[u8], asked: Option<&str>) -> Result<Goniogram> {
+    let fixture = Gdtf::read(bytes)?;
+    let chosen = fixture.mode(asked)?;
+    let mut found = fixture.goniogram(&fixture.modes[chosen])?;
+    found.warnings.extend(fixture.warnings);
     Ok(found)
 }
 

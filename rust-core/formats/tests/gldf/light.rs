@@ -126,5 +126,5 @@ fn a_name_may_have_its_variant_behind_it() {
     assert_eq!(split_variant("a/LAMP.GLDF#"), ("a/LAMP.GLDF", None));
     assert_eq!(split_variant("a/lamp#1.ies"), ("a/lamp#1.ies", None));
     let problem = read_variant(&crate::downlight(1.0), "a.ies", Some("wide"), &mut |_| Err(String::new())).unwrap_err();
-    assert!(problem.problem.contains("no GLDF archive"), "{problem}");
+    assert!(problem.problem.contains("no GLDF or GDTF archive"), "{problem}");
 }

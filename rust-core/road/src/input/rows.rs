@@ -62,7 +62,7 @@ fn row(keys: &Keys<'_>) -> Result<Row> {
     keys.check(&KEYS)?;
     let side = keys.word("side", &SIDES)?;
     let tilt = keys.number("tilt", TILTS)?.unwrap_or(0.0);
-    let luminaire = keys.needed_text("luminaire", "the name of an IES, EULUMDAT, TM-33 or GLDF file")?;
+    let luminaire = keys.needed_text("luminaire", "the name of an IES, EULUMDAT, TM-33, GLDF or GDTF file")?;
     let goniogram = goniogram(keys, luminaire, tilt)?;
     let watts = goniogram.lamps().map(|lamps| lamps.watts).filter(|watts| *watts > 0.0);
     Ok(Row {
@@ -83,7 +83,7 @@ fn row(keys: &Keys<'_>) -> Result<Row> {
 
 /// A luminaire's intensities, for the lamps and the tilt that were asked for.
 fn goniogram(keys: &Keys<'_>, name: &str, tilt: f64) -> Result<Goniogram> {
-    let expected = "expected an IES, EULUMDAT, TM-33 or GLDF file, named relative to the road's file";
+    let expected = "expected an IES, EULUMDAT, TM-33, GLDF or GDTF file, named relative to the road's file";
     let (path, bytes) = named(keys, "luminaire", split_variant(name).0, expected)?;
     let read = read_with(&bytes, name, &mut beside(&path));
     let mut goniogram = read.map_err(|error| RoadError::content(&path, error))?;

@@ -226,3 +226,25 @@ def test_light_groups_are_passes_that_sum_up(tmp_path: Path):
         assert all(part.max() > 0.0 for part in parts), colour
         combined = channels[f"ViewLayer.Combined.{colour}"]
         assert numpy.abs(sum(parts) - combined).max() <= 1e-5 * combined.max()
+
+
+@pytest.mark.blender
+def test_a_stage_fixture_is_a_luminaire(tmp_path: Path):
+    import importlib
+    import math
+    import zipfile
+
+    import bpy
+    import scenes
+
+    description = """<GDTF DataVersion="1.2"><FixtureType Name="Head"><Geometries><Beam Name="Beam" LuminousFlux="12000" BeamAngle="20"
+FieldAngle="40"/></Geometries><DMXModes><DMXMode Name="Standard" Geometry="Beam"/></DMXModes></FixtureType></GDTF>"""
+    with zipfile.ZipFile(tmp_path / "head.gdtf", "w") as archive:
+        archive.writestr("description.xml", description)
+    scenes.empty()
+    bpy.ops.object.light_add(type="POINT")
+    data = bpy.context.object.data
+    data.gonio.use_photometry = True
+    data.gonio.file = str(tmp_path / "head.gdtf")
+    figures = importlib.import_module("gonio_extension.luminaire").figures(data)
+    assert math.isclose(figures["flux_lm"], 12000, rel_tol=1e-4) and math.isclose(figures["field_angle_deg"][0], 40, rel_tol=1e-4), figures
