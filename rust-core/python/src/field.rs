@@ -51,6 +51,10 @@ pub(crate) fn filled(
 ) -> PyResult<Field> {
     let told = |problem: String| setting(&described.origin.to_string(), problem);
     let Field { origin, to_world, glow, hottest, .. } = described.clone();
+    let is_file = matches!(density, Source::File(..));
+    if is_file && described.beyond != [[0.0; 3]; 2] {
+        return Err(told("beyond is of arrays; a file's grid ends where its voxels do".into()));
+    }
     let mut field = match (density, heat) {
         (Source::File(path, name), None) => py.detach(|| Field::read(origin, path, name, None, &to_world)).map_err(told)?,
         (Source::File(path, name), Some(Source::File(other, heat))) if path == other => {

@@ -369,7 +369,8 @@ impl Scene {
     /// Adds a field described as in `to_dict`, or replaces field `index`; gives its number, which media name as `field`.
     ///
     /// `density` and `heat` are arrays (nx, ny, nz), or a file and the name of its grid. The description's `to_world` leads to the world from an array's
-    /// voxels, whose centres are whole numbers, or from the file's space.
+    /// voxels, whose centres are whole numbers, or from the file's space. Its `beyond` says for how many voxels an array's outermost values go on before
+    /// and behind it, three numbers each.
     ///
     /// Where colours vary, `taken` is an array (nx, ny, nz, 6) of factors on the medium's extinction, R, G, B, and on its scattering, of which the
     /// density is at least the greatest; `sent` (nx, ny, nz, 3) has factors on its emission, in place of the heat.

@@ -130,6 +130,9 @@ pub struct Field {
     pub origin: Origin,
     /// From the lattice to the world.
     pub to_world: Transform,
+    /// By how many points its box goes on before and beyond its arrays, whose outermost values stay there.
+    #[serde(skip_serializing_if = "ends_with_arrays")]
+    pub beyond: [[f32; 3]; 2],
     /// The density; below 0 it counts as 0.
     pub density: Lattice,
     /// What the emission follows; `None` where that is even.
@@ -148,6 +151,10 @@ pub struct Field {
     /// How all of it moves while the shutter is open, within the box; `None` where it does not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub flow: Option<Flow>,
+}
+
+fn ends_with_arrays(beyond: &[[f32; 3]; 2]) -> bool {
+    *beyond == [[0.0; 3]; 2]
 }
 
 /// Lattices of [`Field::taken`] and of [`Field::sent`], where there are any.
@@ -190,7 +197,7 @@ impl Field {
             && colours_are_one
             && flows_are_one
             && self.density.holds_arrays_of(&other.density)
-            && (&self.glow, self.hottest) == (&other.glow, other.hottest)
+            && (&self.glow, self.hottest, self.beyond) == (&other.glow, other.hottest, other.beyond)
     }
 
     /// All of its lattices.
@@ -201,11 +208,12 @@ impl Field {
 
     /// The box about all of it, lattice coordinates.
     pub fn domain(&self) -> [[f32; 3]; 2] {
-        let [min, max] = self.density.domain;
-        match self.heat.as_ref().map(|heat| heat.domain) {
-            Some([low, high]) => [[0, 1, 2].map(|axis| min[axis].min(low[axis])), [0, 1, 2].map(|axis| max[axis].max(high[axis]))],
-            None => [min, max],
+        let [mut min, mut max] = self.density.domain;
+        if let Some([low, high]) = self.heat.as_ref().map(|heat| heat.domain) {
+            (min, max) = ([0, 1, 2].map(|axis| min[axis].min(low[axis])), [0, 1, 2].map(|axis| max[axis].max(high[axis])));
         }
+        let [before, behind] = self.beyond;
+        [[0, 1, 2].map(|axis| min[axis] - before[axis]), [0, 1, 2].map(|axis| max[axis] + behind[axis])]
     }
 
     /// The box that it comes to as it flows, at most half as wide again on each side.

@@ -72,9 +72,9 @@ impl Medium {
     pub fn extinction_of(visibility: f64, contrast: f64) -> f64 {
         -contrast.ln() / visibility
     }
-    /// Whether nothing is left of light that comes from infinitely far.
+    /// Whether nothing is left of light that comes from infinitely far. Fields end somewhere.
     pub fn ends_light(&self) -> bool {
-        self.absorption.iter().zip(&self.scattering).all(|(absorption, scattering)| absorption + scattering > 0.0)
+        self.field.is_none() && self.absorption.iter().zip(&self.scattering).all(|(absorption, scattering)| absorption + scattering > 0.0)
     }
     /// Whether light goes through as if nothing were there.
     pub fn is_clear(&self) -> bool {

@@ -247,6 +247,21 @@ impl<'a> Places<'a> {
 }
 
 impl Numbers for Places<'_> {
+    fn like(&self, brick: [usize; 3]) -> [usize; 3] {
+        let Some([min, max]) = self.lattice.extended else { return brick };
+        let edge = BRICK_EDGE as usize;
+        [0, 1, 2].map(|axis| {
+            let first = self.base[axis] + (brick[axis] * edge) as i32;
+            if first + BRICK_EDGE <= min[axis] {
+                0
+            } else if first >= max[axis] {
+                ((max[axis] - self.base[axis]).max(0) as usize).div_ceil(edge)
+            } else {
+                brick[axis]
+            }
+        })
+    }
+
     fn brick(&self, brick: [usize; 3], points: &mut Points) -> Option<f32> {
         let [x, y, z] = [0, 1, 2].map(|axis| self.along(axis, brick[axis]));
         let first = [x[0], y[0], z[0]].map(|point| point.div_euclid(BRICK_EDGE));
@@ -296,5 +311,26 @@ mod tests {
         let flat = Field { to_world: Transform::scale(0.0), ..field.clone() };
         let (once, ..) = memory(vec![field.clone()]);
         assert_eq!(memory(vec![flat, field, moved]), (once, vec![false, true, true], 1));
+    }
+
+    #[test]
+    fn bricks_beyond_an_array_are_those_at_its_edge() {
+        let values: Vec<f32> = (0..20 * 9 * 16).map(|n| (n * n % 101) as f32).collect();
+        let density = Lattice::of_values(&values, [20, 9, 16]).expect("as many values as voxels");
+        let field = Field { density, beyond: [[37.0, 100.0, 0.0], [64.0, 3.0, 20.5]], ..Field::default() };
+        let (laid, count) = (Laid::new(&field), bricks(&field));
+        let points = |brick: [usize; 3]| {
+            let mut points = [0.0; POINTS * POINTS * POINTS];
+            laid.density.brick(brick, &mut points).map_or(points, |value| [value; POINTS * POINTS * POINTS])
+        };
+        let mut own = 0;
+        for n in 0..count.iter().product() {
+            let brick = [n / (count[1] * count[2]), n / count[2] % count[1], n % count[2]];
+            let like = laid.density.like(brick);
+            own += usize::from(like == brick);
+            assert!((0..3).all(|axis| like[axis] <= brick[axis]) && laid.density.like(like) == like);
+            assert_eq!(points(like), points(brick), "{like:?} {brick:?}");
+        }
+        assert!(own < 150 && count.iter().product::<usize>() > 900, "{own} of {count:?}");
     }
 }

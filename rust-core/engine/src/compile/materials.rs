@@ -17,7 +17,7 @@ use crate::{
     bsdf::{Bump, Closure as Single, Distribution, Fuzz, Metal, SubsurfaceMethod, Surface, Switches, parameter},
     error::{Diagnostic, Error, Result},
     graph::{Program, Wanted, WantedOutput},
-    scene::{self, Closure, FibreDirection, Input, Material, Medium, Model, NodeId, Origin, Scene},
+    scene::{self, Closure, FibreDirection, Input, Material, Model, NodeId, Origin, Scene},
     transport::{MaterialTable, Mix, ShaderOutput, ShaderOutputs, Shading, SurfaceMaterial},
 };
 pub(super) use displacement::{displaces, program, pruned};
@@ -82,9 +82,7 @@ pub(super) fn compile(
             }
         });
     }
-    if let Some(row) =
-        media::add(&Medium { field: None, ..scene.atmosphere }, &Origin::new("atmosphere"), &usable, &mut table.media, diagnostics)
-    {
+    if let Some(row) = media::add(&scene.atmosphere, &Origin::new("atmosphere"), &usable, &mut table.media, diagnostics) {
         table.media.everywhere = row;
     }
     table.any_exit = table.surfaces.iter().any(|surface| surface.exit.is_some());

@@ -31,6 +31,8 @@ pub const GLOW: usize = 256;
 pub trait Numbers: std::fmt::Debug {
     /// Fills the points of a brick, z fastest, or says that all of them have one value.
     fn brick(&self, brick: [usize; 3], points: &mut [f32; POINTS * POINTS * POINTS]) -> Option<f32>;
+    /// The first brick whose points are those of a brick.
+    fn like(&self, brick: [usize; 3]) -> [usize; 3];
 }
 
 /// A field that is to be laid out.
@@ -243,6 +245,12 @@ impl Layout {
         let first = self.bounds.len() / ROW;
         let mut points = [0.0; POINTS * POINTS * POINTS];
         for brick in places(bricks) {
+            let [x, y, z] = numbers.like(brick);
+            if [x, y, z] != brick {
+                let known = (first + (x * bricks[1] + y) * bricks[2] + z) * ROW;
+                self.bounds.extend_from_within(known..known + ROW);
+                continue;
+            }
             let row = match numbers.brick(brick, &mut points) {
                 Some(value) => [value.max(lowest), 0.0, value.max(lowest), f32::from_bits(0)],
                 None => self.brick(&mut points, lowest),

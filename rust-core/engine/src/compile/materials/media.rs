@@ -10,7 +10,7 @@ use crate::{
 
 /// Tells that lights at infinity send nothing through what fills all of space.
 pub(in crate::compile) fn report(atmosphere: &Medium, lights: &LightTable, diagnostics: &mut Vec<Diagnostic>) {
-    let takes_light = atmosphere.absorption.iter().chain(&atmosphere.scattering).any(|x| *x > 0.0);
+    let takes_light = atmosphere.field.is_none() && atmosphere.absorption.iter().chain(&atmosphere.scattering).any(|x| *x > 0.0);
     if takes_light && lights.infinite_lights().next().is_some() {
         let problem =
             "it fills all of space, so that nothing arrives of skies and suns, which are infinitely far; a box of the medium ends it";
