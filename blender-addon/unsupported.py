@@ -42,7 +42,6 @@ OBJECTS = {
         "of the box",
         "smooth between points; they keep the form of the frame; clear there",
     ),
-    "volume holdout": Limit("Volume objects as holdouts", "seen as others are"),
     "volume visibility": _untold(
         "Ray visibility of objects that hold volumes, for rays that start inside", "they go through the volume as others do, and do not see its end"
     ),
@@ -131,7 +130,12 @@ LIGHTS = {
 }
 
 WORLDS = {
-    "world volume": Limit("Volumes of worlds that vary from place to place", "the air stays clear"),
+    "world volume": Limit("Volume shaders of worlds that are no volume's", "the air stays clear"),
+    "uneven air": _quietly(
+        "Volumes of worlds that vary: what is finer than 2²¹ points about the scene, or than 2048 along one axis; what is further off than half the "
+        "size of the scene, twice its size where the volume varies along two axes, eight times along one",
+        "smooth between points; the value of the nearest point for one and a half times as much, then clear air; 10 km along axes that do not count",
+    ),
     "world's light path": Limit("Light Path in worlds: all but camera rays", "the others are not told apart, and count as 0"),
     "world aov": Limit("Shader AOVs of worlds", "their passes show surfaces alone"),
     "sun behind nodes": Limit("Sky Texture: the sun's disc where other nodes change the sky", "the disc is left out"),

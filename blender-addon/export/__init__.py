@@ -22,6 +22,7 @@ from .slots import Slots
 from .surroundings import Surroundings
 from .transforms import columns
 from .volumes import Volumes
+from .volumes.air import Air
 from .volumes.insides import Insides
 
 __all__ = ["Changes", "Exporter"]
@@ -41,6 +42,7 @@ class Exporter:
         self._meshes = Meshes(self.scene, meshes, report)
         self._volumes = Volumes(self.scene, meshes, materials, report)
         self._insides = Insides(self._volumes, report)
+        self._air = Air(self.scene, self._volumes, report)
         self._fibres = Fibres(self.scene, report)
         self._instances = Instances(self.scene, report)
         self._lights = Lights(self.scene, self._images, report)
@@ -124,6 +126,7 @@ class Exporter:
             # No update tells of the pictures of a sequence.
             found.every_material = found.world = True
         changes = Changes()
+        self._air.any_written = False
         if found.nothing:
             return changes
         if found.geometry:
@@ -147,7 +150,7 @@ class Exporter:
             self._look_around(depsgraph, changes)
         self._lights.write()
         changes.lights = self._lights.any_written
-        changes.world = found.world and self._lights.any_written
+        changes.world = self._air.any_written or (found.world and self._lights.any_written)
         if found.camera or found.placements or found.moved:
             changes.camera = self._scene_camera(depsgraph)
         return changes
@@ -194,13 +197,14 @@ class Exporter:
         shown = (getattr(layer, "world_override", None) or depsgraph.scene_eval.world) if layer.use_sky else None
         self._lights.domes([])
         self.report.forget_all("World")
-        self._world_asked, filled = {}, {}
+        self._world_asked, filled = {}, (None, None)
         if shown is not None:
             with self.report.guard("World", shown.name, "the world is black"):
                 descriptions, self._world_asked = world.domes(shown, self._images, self.report, self._surroundings(depsgraph))
                 self._lights.domes(descriptions)
-                filled = world.atmosphere(shown, self._images, self.report)
-        self.scene.put_atmosphere(filled)
+                filled = world.atmosphere(shown, self._images, self.report, self._surroundings(depsgraph))
+                self._world_asked = self._world_asked | (filled[0].asked if filled[0] is not None else {})
+        self._air.show(*filled, "" if shown is None else shown.name, depsgraph)
 
     def _moves(self, depsgraph, changes, moved):
         """New places of objects; everything is walked over where they may take others along."""
@@ -255,6 +259,7 @@ class Exporter:
         self._lights.lamps([(group, key) for group, key in keyed if group.kind == "LIGHT"], self._instances.sets)
         self._meshes.sweep()
         self._fibres.sweep()
+        self._air.place(walk.groups, depsgraph)
         self._volumes.sweep()
         self._insides.sweep()
         changes.geometry |= self._meshes.any_written or self._fibres.any_written or self._volumes.any_written
@@ -300,17 +305,19 @@ class Exporter:
             return False
         self.scene.put_camera(description, index=None if self._camera is None else 0)
         self._camera = description
-        self._look_around(depsgraph, Changes())
-        if not self._surroundings(depsgraph).answers(self._world_asked):
-            self._world(depsgraph)
+        if self._look_around(depsgraph, Changes()):
             self._lights.write()
         return True
 
     def _look_around(self, depsgraph, changes):
-        """Materials that asked for what is otherwise now, with what fills meshes by them."""
+        """Materials that asked for what is otherwise now, with what fills meshes by them, and the world; gives whether that did."""
         changes.shading |= self._materials.look_around(self._surroundings(depsgraph), depsgraph)
         if self._materials.is_inside_stale:
             self._placements(depsgraph, changes, keep_known=True)
+        is_world_stale = not self._surroundings(depsgraph).answers(self._world_asked)
+        if is_world_stale:
+            self._world(depsgraph)
+        return is_world_stale
 
     def _surroundings(self, depsgraph):
         return Surroundings(self._camera, depsgraph, self._part)

@@ -103,22 +103,20 @@ def domes(world, images, report, surroundings=None):
     return _with_visibility(world, [*seen, *shown]), t.asked | of_camera.asked
 
 
-def atmosphere(world, images, report):
-    """The even medium that a world's Volume is, as the scene takes it; empty where there is none."""
+def atmosphere(world, images, report, surroundings):
+    """The translator of a world's Volume, which is asked for places, and the medium that it is; None where there is none."""
     if world is None or world.node_tree is None or not _uses_nodes(world):
-        return {}
-    t = WorldTranslator(world, world.node_tree, Pictures(images, report), report, kind="World", is_world=True, is_camera_ray=False)
+        return None, None
+    t = Translator(world, world.node_tree, Pictures(images, report), report, kind="World", is_camera_ray=False, surroundings=surroundings)
     end = active_output(world.node_tree, "World")
-    volume = None if end is None else input_socket(end, "Volume")
-    if volume is None or not volume.is_linked:
-        return {}
-    found = medium(t, volume, t.root)
-    if found is None or not found.is_even:
+    if end is None or not t.linked(end, "Volume", t.root):
+        return t, None
+    found = medium(t, input_socket(end, "Volume"), t.root)
+    if found is None:
         t.tell("world volume", end, t.root)
-        return {}
-    if not found.is_plain:
+    elif not found.is_plain:
         t.tell("phase", end, t.root, "Volume")
-    return found.described()
+    return t, found
 
 
 def _uses_nodes(world):

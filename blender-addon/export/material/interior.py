@@ -18,7 +18,7 @@ RADIANCE_PER_T4 = 5.670373e-8 * 1e-6 / pi
 
 
 class Unknown(Exception):
-    """A shader that is no volume's, or a phase function that varies."""
+    """A shader that is no volume's."""
 
 
 @dataclass(frozen=True)
@@ -118,12 +118,10 @@ def _density(t, node, context):
 
 
 def _number(t, node, context, name, default=0.0):
-    """An input that has to be the same everywhere."""
+    """An input that has to be the same everywhere; the value of its socket where it is not."""
     value = t.input(node, name, context, default)
     if value.is_constant:
         return value.constant[0]
-    if t.is_world:
-        raise Unknown
     t.tell("varying phase", node, context, f"{name} that varies")
     return input_socket(node, name).default_value
 

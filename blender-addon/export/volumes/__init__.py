@@ -12,6 +12,7 @@ from ..material.inputs import RANDOM
 from ..slots import Slots
 from ..transforms import columns
 from ..visibility import RAYS
+from .asked import lacking
 from .filling import Place, fill
 from .flow import flowing
 from .sources import Sources
@@ -52,11 +53,10 @@ class Volumes:
         matrix from the box to its space. `inside` is a translator, the medium and the material's name and index."""
         if inside.medium is None:
             return []
-        if "holdout" in group.visibility:
-            self._report.tell("volume holdout", "Object", group.name)
         grids = self._sources.of_group(group)
         if grids is None:
             return []
+        self._tell_lacking(group, inside, grids)
         wanted = frozenset(inside.translator.instance_primvars)
         if RANDOM in wanted:
             fill_random(depsgraph, [group])
@@ -74,6 +74,13 @@ class Volumes:
                         self._note_flow(group, grids, filling, here)
         return found
 
+    def _tell_lacking(self, group, inside, grids):
+        """Tells of grids that shaders ask for and the volume has not: misspelt names show nothing."""
+        medium = inside.medium
+        values = (medium.absorption, medium.scattering, medium.emission)
+        for name, instead in sorted(lacking(inside.translator, values, grids).items()):
+            self._report.add("Object", group.name, f"it has no grid '{name}', which its shader asks for; {instead:g} in its place, as in Cycles")
+
     def _filling(self, key, inside, grids, here):
         """What fills one placement, made anew where something of it is another."""
         self._seen.add(key)
@@ -84,13 +91,15 @@ class Volumes:
         self._fillings[key] = asked, filling
         return filling
 
-    def field(self, name, filling, matrix):
-        """The number of a field at a place, written if it is not there yet; its key, and whether it was written."""
+    def field(self, name, filling, matrix, beyond=None):
+        """The number of a field at a place, written if it is not there yet; its key, and whether it was written. `beyond` says for how many
+        points it goes on before and behind its own."""
         to_world = matrix @ filling.to_object
-        key = (filling.digest, to_world.tobytes())
+        key = (filling.digest, to_world.tobytes(), repr(beyond))
         field, is_new = self._fields.take(key)
         if is_new:
             described = {"origin": _origin(name), "to_world": columns(to_world), "glow": filling.glow, "hottest": filling.hottest}
+            described |= {} if beyond is None else {"beyond": beyond}
             sources = {"density": filling.density, "heat": filling.heat, **filling.colours()}
             self._fields.place(lambda index: self._scene.put_field(described, index, **sources), field)
             self.any_written = True

@@ -7,11 +7,13 @@ import numpy as np
 from gonio.graph import renumber
 
 from ..evaluate import evaluate
-from ..material.inputs import ALPHA, FACTOR, GENERATED, POSITION
+from ..material.inputs import ALPHA, FACTOR, GENERATED, GIVEN, POSITION, TANGENT, UV
 from .lattice import carried
 
 # What depends on the place: in the world, in the object's space, and within the box of the lattice.
 PLACES = {"Position", POSITION, GENERATED}
+# How names begin of what meshes and instances have, and grids are not called.
+NO_GRIDS = ("blender ", GIVEN, TANGENT)
 
 
 class Asked:
@@ -103,6 +105,15 @@ class Asked:
 def grid_of(name):
     """The grid that a named value is taken from."""
     return name.removeprefix(FACTOR).removeprefix(ALPHA)
+
+
+def lacking(t, values, grids):
+    """By the names of grids that values of a graph ask for and a volume has not: what counts in their place."""
+    nodes, _ = t.graph.reachable([value.input() for value in values])
+    fields = [node["operation"]["Primvar"] for node in nodes if isinstance(node["operation"], dict) and "Primvar" in node["operation"]]
+    other = {UV, *t.instance_primvars}
+    asked = {grid_of(each["name"]): each["fallback"][0] for each in fields if each["name"] not in other and not each["name"].startswith(NO_GRIDS)}
+    return {name: fallback for name, fallback in asked.items() if name not in grids.names and name not in grids.silent}
 
 
 def _padded(points):

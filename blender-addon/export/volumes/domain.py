@@ -12,9 +12,10 @@ GRIDS = {"density": 1, "flame": 1, "temperature": 1, "heat": 1, "color": 4, "vel
 
 
 class Simulated:
-    """The grids of a domain, and the factor on its velocities; `unasked` are those that count without being asked for."""
+    """The grids of a domain, and the factor on its velocities; `unasked` are those that count without being asked for, `silent` those that are there
+    where they were simulated."""
 
-    unasked = frozenset()
+    unasked, silent = frozenset(), frozenset(GRIDS)
 
     def __init__(self, grids, velocity_scale):
         self.names, self.velocity_scale = grids, velocity_scale

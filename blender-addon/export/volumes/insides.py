@@ -108,7 +108,7 @@ class Insides:
     def _filling(self, part, inside, here):
         """What fills one placement, made anew where nothing known is the same."""
         bounds = self._bounds_of(part)
-        asked = (_content(inside), bounds.stamp, here.values_key())
+        asked = (content(inside), bounds.stamp, here.values_key())
         for key in ((*asked, None), (*asked, here.matrix.tobytes())):
             if key in self._fillings:
                 self._used.add(key)
@@ -134,7 +134,7 @@ def _part(group, numbers):
     return replace(group, **of_part, is_itself=group.is_itself and numbers[0] == 0, is_filled=True)
 
 
-def _content(inside):
+def content(inside):
     """What a shader comes to, to be compared; itself where it looks up pictures, whose numbers tell nothing of their pixels."""
     medium = inside.medium
     sources = [value.input() for value in (medium.absorption, medium.scattering, medium.emission, medium.turned)]

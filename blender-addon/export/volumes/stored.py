@@ -26,9 +26,9 @@ class Told:
 
 
 class Stored:
-    """The grids of a file; `stamp` is another when they are, `unasked` those that count without being asked for."""
+    """The grids of a file; `stamp` is another when they are, `unasked` those that count without being asked for, `silent` those that may be lacking."""
 
-    unasked = frozenset()
+    unasked = silent = frozenset()
 
     def __init__(self, path, stamp):
         self.path, self.stamp, self._dense = path, stamp, {}

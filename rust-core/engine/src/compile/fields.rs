@@ -318,7 +318,7 @@ mod tests {
         let values: Vec<f32> = (0..20 * 9 * 16).map(|n| (n * n % 101) as f32).collect();
         let density = Lattice::of_values(&values, [20, 9, 16]).expect("as many values as voxels");
         let field = Field { density, beyond: [[37.0, 100.0, 0.0], [64.0, 3.0, 20.5]], ..Field::default() };
-        let (laid, count) = (Laid::new(&field), bricks(&field));
+        let (laid, count) = (Laid::new(&field, false), bricks(&field));
         let points = |brick: [usize; 3]| {
             let mut points = [0.0; POINTS * POINTS * POINTS];
             laid.density.brick(brick, &mut points).map_or(points, |value| [value; POINTS * POINTS * POINTS])

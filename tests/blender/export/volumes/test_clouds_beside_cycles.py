@@ -28,12 +28,12 @@ def lit():
     link(bpy.data.objects.new("Lamp", lamp)).location = (2.0, -1.0, 1.5)
 
 
-def alike(path, channels=3, mean=0.03, block=0.12):
-    """The means of both pictures' first channels, of blocks of 8 by 8 pixels, and the middle of the light."""
+def alike(path, channels=3, mean=0.03, block=0.12, lines=()):
+    """The means of both pictures' first channels, of blocks of 8 by 8 pixels, and the middle of the light; the report may hold these words' lines."""
     import numpy as np
     from beside_cycles import both
 
-    cycles, gonio = pictures = [picture[..., :channels] for picture in both(path)]
+    cycles, gonio = pictures = [picture[..., :channels] for picture in both(path, lines=lines)]
     blocks = [picture.reshape(4, 8, 4, 8, channels).mean((1, 3)) for picture in pictures]
     apart = np.abs(blocks[1] - blocks[0]) / np.maximum(blocks[0], 0.1 * blocks[0].max())
     middles = [[(picture.sum(-1) * np.indices((32, 32))[axis]).sum() / picture.sum() for axis in (0, 1)] for picture in pictures]

@@ -52,6 +52,23 @@ def test_no_material_is_the_usual_smoke_and_no_volume_is_nothing(tmp_path):
 
 
 @pytest.mark.blender
+def test_grids_that_are_not_there_are_told_by_name(tmp_path):
+    from clouds import attribute, ball, cloud, exported, filled, stored
+    from recorder import empty
+
+    empty()
+    made, tree, shader = filled("VolumePrincipled", Density_Attribute="smoke", Blackbody_Intensity=1.0)
+    tree.links.new(attribute(tree, "flames"), shader.inputs["Emission Strength"])
+    cloud(stored(tmp_path / "cloud.vdb", density=ball()), made)
+    lines = exported()[2]
+    # As in Cycles Principled Volume counts what is not there as 1.
+    assert sorted(lines) == [
+        f"Cloud: it has no grid '{name}', which its shader asks for; {instead} in its place, as in Cycles"
+        for name, instead in (("flames", 0), ("smoke", 1), ("temperature", 1))
+    ]
+
+
+@pytest.mark.blender
 def test_fire_is_a_table_over_heat(tmp_path):
     import numpy as np
     from clouds import ball, cloud, exported, filled, stored
@@ -224,7 +241,7 @@ def test_instances_are_placed_and_switched(tmp_path):
         bearer = link(bpy.data.objects.new("Bearer", None))
         bearer.instance_type, bearer.instance_collection, bearer.location = "COLLECTION", inner, (x, 0, 0)
     _, scene, lines = exported()
-    assert len(scene.fields) == len(scene.instances) == 2 and len(lines) == 1 and "holdout" in lines[0]
+    assert len(scene.fields) == len(scene.instances) == 2 and not lines
     places = sorted(float(each["transforms"][0, 0, 3]) for each in scene.instances)
     assert places[1] - places[0] == pytest.approx(5.0)
     assert all(not each["visibility"]["camera"] and each["visibility"]["shadow"] for each in scene.instances)
