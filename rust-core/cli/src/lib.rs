@@ -53,6 +53,7 @@ mod stage;
 mod sunlight;
 mod verdict;
 mod view;
+mod view_out;
 mod volume;
 mod wavelengths;
 
@@ -113,6 +114,7 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
         Command::Photometry(options) => photometry::photometry(&options),
         Command::Spectrum(options) => spectrum::spectrum(&options),
         Command::Sunlight(options) => sunlight::sunlight(py, &options, &INTERRUPTED),
+        Command::ViewOut(options) => view_out::view_out(py, &options, &INTERRUPTED),
         Command::Sensor(options) => py.detach(|| sensor::sensor(&options)),
         Command::Bsdf(options) => bsdf::bsdf(py, &options, &INTERRUPTED),
         Command::Measure(options) => measure::measure(py, &options, &INTERRUPTED),

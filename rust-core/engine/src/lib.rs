@@ -23,6 +23,7 @@ pub mod sky;
 pub mod spectral_picture;
 pub mod sunlight;
 pub mod threads;
+pub mod view_out;
 
 pub use gonio_accel as accel;
 pub use gonio_bsdf as bsdf;

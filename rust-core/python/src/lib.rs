@@ -40,6 +40,7 @@ mod sunlight;
 mod table;
 mod usd;
 mod view;
+mod view_out;
 mod watched;
 
 use pyo3::prelude::*;
@@ -101,6 +102,8 @@ mod _gonio {
     use crate::sunlight::sunlight;
     #[pymodule_export]
     use crate::usd::{_files_of_stage, _main, _scene, _view_scene, load_usd};
+    #[pymodule_export]
+    use crate::view_out::view_out;
 
     use pyo3::{prelude::*, types::PyDict};
 

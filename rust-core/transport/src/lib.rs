@@ -35,6 +35,7 @@ pub use schedule::tracer::{Start, Tracer};
 pub use stage::find::corners::{Corner, CornerRoom, CornerTables};
 pub use stage::find::segments::{Segment, Segments};
 pub use stage::find::sort::order_by_material;
+pub use stage::light::seen_through::{SeenThroughRoom, seen_through};
 pub use stage::light::textured_emission::{EmissionPoint, emitted};
 pub use stage::shade::forward::{Arriving, Picture, Splat, Wanted};
 pub use stage::start::emit::Emission;

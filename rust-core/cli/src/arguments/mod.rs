@@ -30,6 +30,7 @@ mod sunlight;
 mod texture;
 mod verdict;
 mod view;
+mod view_out;
 mod work;
 
 pub(super) use annual::{
@@ -64,6 +65,7 @@ pub(super) use sunlight::SunlightOptions;
 pub(super) use texture::TextureArguments;
 pub(super) use verdict::VerdictOptions;
 pub(super) use view::{ShowArgument, ViewOptions};
+pub(super) use view_out::ViewOutOptions;
 pub(super) use work::WorkArguments;
 
 use annual::{ANNUAL_EXAMPLES, ANNUAL_GLARE_EXAMPLES, ANNUAL_METRICS_EXAMPLES};
@@ -81,6 +83,7 @@ use spectrum::{SENSOR_EXAMPLES, SPECTRUM_EXAMPLES};
 use sunlight::SUNLIGHT_EXAMPLES;
 use verdict::VERDICT_EXAMPLES;
 use view::VIEW_EXAMPLES;
+use view_out::VIEW_OUT_EXAMPLES;
 
 /// What the process's status says.
 const EXIT_STATUS: &str = "\
@@ -144,6 +147,12 @@ pub(super) enum Command {
     /// The sun goes over the sky minute by minute. What stands before it hides it; thin panes let it through. Hours are those in which any of its disc is seen.
     #[command(after_long_help = SUNLIGHT_EXAMPLES)]
     Sunlight(Box<SunlightOptions>),
+    /// Say what is seen of the outside from points of a USD stage (view out of EN 17037): horizontal sight angle, outside distance, layers.
+    ///
+    /// Eyes send rays around, to 60° above and below the horizon, which go out through clear panes and open holes. Grids get the level that three quarters of
+    /// their points reach. It is no certificate.
+    #[command(name = "view-out", after_long_help = VIEW_OUT_EXAMPLES)]
+    ViewOut(Box<ViewOutOptions>),
     /// See a picture by wavelength as a camera or another sensor does, by its response curves.
     ///
     /// Takes what 'gonio render --by-wavelength' writes and a table of the sensor's channels; writes an EXR file with a channel for each. 'gonio falsecolor' shows
@@ -216,8 +225,8 @@ pub(super) enum Command {
     Sports(Box<SportsOptions>),
     /// Say whether what was measured meets what is required, line by line and by the standard errors: met, not met, or within the error.
     ///
-    /// Requirements are a TOML file of your own numbers; figures come from 'gonio measure', 'gonio annual', 'gonio road', 'gonio emergency' and
-    /// 'gonio sports' with --json. Writes the
+    /// Requirements are a TOML file of your own numbers; figures come from 'gonio measure', 'gonio annual', 'gonio view-out', 'gonio road',
+    /// 'gonio emergency' and 'gonio sports' with --json. Writes the
     /// planner's sheet as HTML or PDF. It is no certificate of conformity with a standard.
     #[command(after_long_help = VERDICT_EXAMPLES)]
     Verdict(VerdictOptions),

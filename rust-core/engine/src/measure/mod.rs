@@ -19,7 +19,7 @@ mod sensing;
 mod spectral;
 mod straight;
 mod ugr;
-mod vector;
+pub(crate) mod vector;
 mod watch;
 
 #[cfg(test)]

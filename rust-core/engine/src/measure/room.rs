@@ -58,10 +58,15 @@ impl Room {
         z > -below && z < self.height + above && rows.any(|[from, to]| x > from - AT_WALL && x < to + AT_WALL)
     }
 
+    /// Metres from the place up to the section, above doors and windows.
+    pub(crate) fn section(&self) -> f64 {
+        SECTION * self.height
+    }
+
     /// A place of the section.
     fn at(&self, x: f64, row: i64) -> Vector {
         let [along, across, up] = self.axes;
-        let level = add(self.place, scaled(up, SECTION * self.height));
+        let level = add(self.place, scaled(up, self.section()));
         add(level, add(scaled(along, x), scaled(across, (row as f64 + BESIDE) * STEP)))
     }
 

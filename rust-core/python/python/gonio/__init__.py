@@ -60,6 +60,7 @@ from ._gonio import (
     spectrum_figures,
     sunlight,
     ugr_table,
+    view_out,
 )
 from .oidn import denoise
 from .placing import look_at
@@ -130,4 +131,5 @@ __all__ = [
     "spectrum_figures",
     "sunlight",
     "ugr_table",
+    "view_out",
 ]

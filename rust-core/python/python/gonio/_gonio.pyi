@@ -76,6 +76,7 @@ __all__ = [
     "spectral_picture",
     "spectrum_figures",
     "sunlight",
+    "view_out",
     "__version__",
     "simd_level",
     "surface_parameters",
@@ -1033,6 +1034,19 @@ def sunlight(
     elevation: float = 0.0,
     least_elevation: float = 0.0,
     step: float = 1.0,
+    cancelled: Callable[[], bool] | None = None,
+) -> dict[str, Any]: ...
+def view_out(
+    scene: Scene,
+    points: Sequence[Sequence[float]],
+    *,
+    up: str = "Z",
+    ground: Sequence[str] = ...,
+    openings: Sequence[str] = ...,
+    field: float = 60.0,
+    step: float = 0.5,
+    nearest: float = 1.0,
+    horizon: float = 0.0,
     cancelled: Callable[[], bool] | None = None,
 ) -> dict[str, Any]: ...
 def merge(paths: Sequence[str | PathLike[str]]) -> Film: ...

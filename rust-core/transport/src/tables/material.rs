@@ -158,6 +158,12 @@ impl MaterialTable {
     pub fn is_solid(&self, number: u32) -> bool {
         self.closures(number).iter().any(|closure| closure.surface.is_solid())
     }
+    /// Whether what a material of the geometry covers is a solid that is looked through: its surface is smooth, and it does not scatter.
+    pub fn is_clear_solid(&self, number: u32) -> bool {
+        let is_clear =
+            |closure: &SurfaceMaterial| closure.surface.is_solid() && closure.surface.lobes.smooth && closure.solid_medium.is_none();
+        self.closures(number).iter().any(is_clear)
+    }
     /// The number of the spectrum of what a material of the geometry sends, counted from 1; 0 is none. Its closures have one.
     pub fn spectrum(&self, number: u32) -> u32 {
         self.closures(number).first().map_or(0, |closure| closure.surface.spectrum)

@@ -16,7 +16,7 @@ use toml::de::DeTable;
 const PARTS: [&str; 5] = ["title", "project", "place", "author", "require"];
 const KEYS: [&str; 9] = ["area", "quantity", "of", "file", "at_least", "at_most", "unit", "label", "maintenance_factor"];
 /// Signs of units that limits are written in.
-const UNITS: [&str; 9] = ["lx", "cd/m²", "%", "K", "h", "mW/(lx·m²)", "kWh/m²", "W/km", ""];
+const UNITS: [&str; 11] = ["lx", "cd/m²", "%", "K", "h", "m", "°", "mW/(lx·m²)", "kWh/m²", "W/km", ""];
 /// The greatest limit.
 const MOST: f64 = 1e12;
 

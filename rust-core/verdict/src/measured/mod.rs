@@ -11,6 +11,7 @@ mod object;
 mod road;
 mod sports;
 mod table;
+mod view_out;
 
 pub(crate) use area::{Area, Figure};
 
@@ -46,7 +47,8 @@ pub struct Measured {
 }
 
 impl Measured {
-    /// Reads what `gonio measure`, `gonio annual`, `gonio annual-metrics`, `gonio road`, `gonio emergency` and `gonio sports` print with `--json`.
+    /// Reads what `gonio measure`, `gonio annual`, `gonio annual-metrics`, `gonio view-out`, `gonio road`, `gonio emergency` and `gonio sports` print with
+    /// `--json`.
     ///
     /// # Errors
     /// Bytes that are no JSON, or not that of one of these commands, with the file and what was found.
@@ -89,7 +91,9 @@ fn areas(bytes: &[u8], file: usize) -> Found<Vec<Area>> {
         return Err(FormatError::whole(format!("no object of JSON, {EXPECTED}")));
     };
     let has = |key: &str| whole.contains_key(key);
-    if has("meters") && has("grids") {
+    if has("share_of_points") && has("meters") {
+        view_out::read(&whole, file)
+    } else if has("meters") && has("grids") {
         grids::read(&whole, file)
     } else if has("weather") && has("grids") {
         annual::read(&whole, file)

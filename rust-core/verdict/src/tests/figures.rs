@@ -75,6 +75,29 @@ fn sensor_grids() {
     }
 }
 
+/// What three quarters of the points have, and shares by each criterion and by all.
+#[test]
+fn views_out() {
+    let shares = |minimum: f64, medium: f64| json!({ "minimum": minimum, "medium": medium, "high": 0.0 });
+    let point = |angle: f64| json!({ "sight_angle_deg": angle, "distance_m": 25.0 });
+    let file = json!({ "share_of_points": 0.75, "meters": [{ "name": "2,3,1.2", "sight_angle_deg": 41.5, "distance_m": 5000.0 }],
+        "sensor_grids": [], "grids": [{ "name": "/Office/Floor", "sight_angle_deg": 30.0, "distance_m": 25.0,
+        "shares": { "sight_angle": shares(0.9, 0.8), "distance": shares(1.0, 1.0), "layers": shares(1.0, 0.7), "all": shares(0.9, 0.6) },
+        "columns": 2, "rows": 1, "spacing_m": [1.0, 1.0], "points": [point(30.0), null] }] });
+    for (keys, expected) in [
+        ("area = 'Floor'; quantity = 'sight_angle'; unit = '°'", 30.0),
+        ("area = 'Floor'; quantity = 'distance'; unit = 'm'", 25.0),
+        ("area = 'Floor'; quantity = 'view_medium'", 0.6),
+        ("area = 'Floor'; quantity = 'view_medium'; unit = '%'", 60.0),
+        ("area = 'Floor'; quantity = 'view_medium'; of = 'layers'", 0.7),
+        ("area = 'Floor'; quantity = 'view_minimum'; of = 'sight_angle'", 0.9),
+        ("area = '2,3,1.2'; quantity = 'sight_angle'", 41.5),
+    ] {
+        let (found, error) = value(keys, std::slice::from_ref(&file));
+        assert!((found - expected).abs() < 1e-12 && error.is_none(), "{keys}");
+    }
+}
+
 #[test]
 fn years() {
     for (keys, expected, error) in [

@@ -190,7 +190,7 @@ fn slices([x, y, z]: &[Column; 3]) -> [&[f32]; 3] {
 
 /// Adds what a closure lets pass straight, times its weights if it is one of several.
 #[inline(always)]
-fn add_transmittance<L: Lanes>(l: L, tables: &Tables, mut closure: ClosureHits<'_>, sums: &mut SpectrumColumns) {
+pub(crate) fn add_transmittance<L: Lanes>(l: L, tables: &Tables, mut closure: ClosureHits<'_>, sums: &mut SpectrumColumns) {
     let material = &tables.materials.surfaces[closure.surface];
     if !material.lets_light_pass {
         return;
