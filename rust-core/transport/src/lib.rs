@@ -63,6 +63,7 @@ pub use tables::material::{MaterialTable, Mix, Shading, SurfaceMaterial};
 pub use tables::matte_names::{MatteNames, NameRun};
 pub use tables::media::{Medium, MediumTable};
 pub use tables::motion_vectors::{MotionCameras, NeighbourFrames, NeighbourMaps};
+pub use tables::openings::Openings;
 pub use tables::photons::{Bright, OFF_PLANE, Photon, Photons};
 pub use tables::ray_table::RayTable;
 pub use tables::shader_passes::{ShaderOutput, ShaderOutputs, ShaderPasses};

@@ -103,6 +103,7 @@ pub(crate) fn transport(scene: &CompiledScene, settings: &Settings, execution: E
             shader: shader_passes::programs(&scene.tables.materials, settings),
             // What is wrong with them is told when the view is made.
             expressions: expressions::passes(scene, settings).unwrap_or_default(),
+            openings: None,
             groups: light_groups::passes(&scene.tables.groups, settings),
             surface: [Aov::Depth, Aov::Normal, Aov::P, Aov::Albedo].iter().any(|aov| settings.aovs.contains(aov)),
             motion: None,

@@ -3,27 +3,23 @@
 use crate::accumulate::deposit::{Contribution, Deposits, Source};
 use crate::accumulate::light_sums::LightSums;
 use crate::tables::expressions::{PathExpressions, scattering};
+use crate::tables::transport::Passes;
 use crate::words::{code, flag};
 use gonio_camera::sampler::BATCH;
 use gonio_simd::{Lanes, M, Rgb, U};
 
-/// With the code of light that a path finds, the path's state; where no expression asks, the code alone.
+/// With the code of light that a path finds, the path's state; where nobody follows it, the code alone.
 #[inline(always)]
-pub(crate) fn with_state<L: Lanes>(expressions: Option<&PathExpressions>, code: U<L>, flags: U<L>) -> U<L> {
-    match expressions {
-        Some(_) => code | (PathExpressions::state(flags) << code::STATE_SHIFT),
-        None => code,
-    }
+pub(crate) fn with_state<L: Lanes>(passes: &Passes, code: U<L>, flags: U<L>) -> U<L> {
+    if passes.states_are_followed() { code | (PathExpressions::state(flags) << code::STATE_SHIFT) } else { code }
 }
 
 /// The same with the code of a light sample, of which the last scattering is still to be told: `through` says where light comes from behind.
 #[inline(always)]
-pub(crate) fn with_sample<L: Lanes>(expressions: Option<&PathExpressions>, code: U<L>, flags: U<L>, through: M<L>) -> U<L> {
-    match expressions {
-        Some(_) => {
-            with_state(expressions, code, flags)
-                | through.select(flags.lanes().u(code::SAMPLED | code::THROUGH), flags.lanes().u(code::SAMPLED))
-        }
+pub(crate) fn with_sample<L: Lanes>(passes: &Passes, code: U<L>, flags: U<L>, through: M<L>) -> U<L> {
+    let code = with_state(passes, code, flags);
+    match passes.expressions {
+        Some(_) => code | through.select(flags.lanes().u(code::SAMPLED | code::THROUGH), flags.lanes().u(code::SAMPLED)),
         None => code,
     }
 }

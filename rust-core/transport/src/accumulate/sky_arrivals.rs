@@ -1,7 +1,7 @@
 //! Light of an even sky by the direction that it came from, of which daylight coefficients are made.
 
 use crate::accumulate::deposit::{Contribution, Deposits};
-use crate::words::code;
+use crate::words::{code, flag};
 use gonio_simd::{F, Lanes, M, PADDING, Vec3};
 
 /// Entries that there is room for at first.
@@ -30,7 +30,12 @@ impl SkyArrivals {
 
     /// The number of the direction that an entry came from, see [`crate::Tracer::light_from`].
     pub fn number(&self, entry: usize) -> usize {
-        self.code[entry] as usize
+        (self.code[entry] >> code::NUMBER_SHIFT) as usize
+    }
+
+    /// The group of the first opening that an entry's light came through, seen from where it goes; 0 is none. See [`crate::Openings`].
+    pub fn opening(&self, entry: usize) -> usize {
+        ((self.code[entry] >> code::STATE_SHIFT) & flag::STATES) as usize
     }
 
     #[inline(always)]

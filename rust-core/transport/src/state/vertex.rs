@@ -163,12 +163,12 @@ impl<L: Lanes> Vertex<L> {
         PathLanes::start(ray, core).leaving(self.at.light_context(), pdf)
     }
 
-    /// The path that goes on as if there were no surface: it is still under way from the vertex before. `counted` is what that counts.
+    /// The path that goes on, with some flags, as if there were no surface: it is still under way from the vertex before. `counted` is what that counts.
     #[inline(always)]
-    pub(crate) fn straight_on(&self, on: &StraightOn<L>, before: LightSampleContext<L>, counted: u32) -> PathLanes<L> {
+    pub(crate) fn straight_on(&self, on: &StraightOn<L>, before: LightSampleContext<L>, (flags, counted): (U<L>, u32)) -> PathLanes<L> {
         let everywhere = self.alive | !self.alive;
         let media = self.media_towards(everywhere, everywhere);
-        let core = PathCore { width: on.width, counts: self.core.counts + counted, media, ..self.core };
+        let core = PathCore { width: on.width, flags, counts: self.core.counts + counted, media, ..self.core };
         PathLanes::start(on.ray, core).leaving(before, self.pdf).having_passed(Some(on.passed))
     }
 }

@@ -11,6 +11,7 @@ pub(crate) mod material;
 pub(crate) mod matte_names;
 pub(crate) mod media;
 pub(crate) mod motion_vectors;
+pub(crate) mod openings;
 pub(crate) mod photons;
 pub(crate) mod ray_table;
 pub(crate) mod shader_passes;

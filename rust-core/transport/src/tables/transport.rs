@@ -5,6 +5,7 @@ use crate::tables::expressions::PathExpressions;
 use crate::tables::guiding::GuidingField;
 use crate::tables::light_groups::GroupPasses;
 use crate::tables::motion_vectors::MotionCameras;
+use crate::tables::openings::Openings;
 use crate::tables::photons::Photons;
 use crate::tables::shader_passes::ShaderPasses;
 use crate::words::{counts, event, flag};
@@ -212,6 +213,8 @@ pub struct Passes {
     pub shader: ShaderPasses,
     /// Light path expressions that are followed along paths.
     pub expressions: Option<Arc<PathExpressions>>,
+    /// Openings that are followed along paths; never together with expressions.
+    pub openings: Option<Arc<Openings>>,
     /// Which groups of lights are summed apart.
     pub groups: GroupPasses,
 }

@@ -14,8 +14,10 @@ pub const COUNT: usize = 13;
 pub const SHARED: u32 = 13;
 /// Bits of a code alone.
 pub(crate) const CODES: u32 = 15;
-/// Where expressions are followed: above this bit the state of the path that brought the light.
+/// Where expressions or openings are followed: above this bit the state of the path that brought the light.
 pub(crate) const STATE_SHIFT: u32 = 4;
+/// Above this bit: the number of the direction of light from given ones.
+pub(crate) const NUMBER_SHIFT: u32 = 12;
 /// Light of a light sample, whose last scattering is told by its shares.
 pub(crate) const SAMPLED: u32 = 1 << 30;
 /// A light sample behind the surface.

@@ -30,7 +30,7 @@ pub(crate) const ROUGH: u32 = 4096;
 pub(crate) const CLEAR: u32 = 8192;
 /// Light paths bring what comes straight from lights to the surface that the path left last.
 pub(crate) const DIRECT_LEFT: u32 = 16384;
-/// Above this bit: the state of the automaton of light path expressions, 0 where none are followed.
+/// Above this bit: the state of the automaton of light path expressions, or the group of the first opening; 0 where neither is followed.
 pub(crate) const STATE_SHIFT: u32 = 15;
 /// Bits of a state.
 pub(crate) const STATES: u32 = (1 << (BOUNCE_SHIFT - STATE_SHIFT)) - 1;

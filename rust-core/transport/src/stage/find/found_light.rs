@@ -97,7 +97,7 @@ fn add_shapes<L: Lanes>(
         let radiance =
             if tables.any_absorbing { radiance * paths.transmittance(l, (tables, Some(sample)), path, t, alive) } else { radiance };
         let value = transport.limits.clamped(radiance * carried.throughput * weight, flags >> flag::BOUNCE_SHIFT);
-        let code = with_state(transport.passes.expressions.as_deref(), code_of_found(flags, code::EMISSION), flags);
+        let code = with_state(&transport.passes, code_of_found(flags, code::EMISSION), flags);
         let specular = is_specular_path(flags, slot);
         let left = transport.is_left_to_light_paths(flags, light, alive);
         let light = Contribution { slot, value, code, shares: None, specular, source: Source::Light(light) };
@@ -156,7 +156,7 @@ fn add_environment<L: Lanes>(
         let unclamped = sent * throughput;
         let value = transport.limits.clamped(unclamped, flags >> flag::BOUNCE_SHIFT);
         let expressions = transport.passes.expressions.as_deref();
-        let code = with_state(expressions, code_of_found(flags, code::ENVIRONMENT), flags);
+        let code = with_state(&transport.passes, code_of_found(flags, code::ENVIRONMENT), flags);
         let specular = is_specular_path(flags, slot);
         let light = Contribution { slot, value, code, shares: None, specular, source: Source::Several };
         let counted = deposits.deposit(transport, &light, alive & value.is_lit());

@@ -15,7 +15,7 @@ use crate::state::sample::SampleContext;
 use crate::state::vertex::{CONE_PER_ROUGHNESS, Interaction};
 use crate::tables::Tables;
 use crate::tables::transport::{FirstLight, Transport};
-use crate::words::{counts, event, flag};
+use crate::words::{code, counts, event, flag};
 use gonio_camera::sampler::dimension;
 use gonio_light::{FixedLightSample, LightSample, SampleWeight};
 use gonio_simd::{F, Frame, Lanes, M, U, Vec3};
@@ -65,8 +65,8 @@ pub(crate) fn light_by_fixed_samples<L: Lanes>(
     }
 }
 
-/// Lights some points from given directions, as a radiance of 1 does within a steradian about each. What arrives has the direction's number for its
-/// light pass.
+/// Lights some points from given directions, as a radiance of 1 does within a steradian about each. What arrives has the direction's number
+/// beside its light pass.
 #[inline(always)]
 pub(crate) fn light_from_directions<L: Lanes>(
     chunk: &MeasureContext<'_, L>,
@@ -79,7 +79,7 @@ pub(crate) fn light_from_directions<L: Lanes>(
         let point = load_point(l, place, l.first(range.end - place), chunk.points);
         for ([x, y, z], number) in directions {
             let sample = LightSample::from_direction(l, Vec3::new(l.f(*x), l.f(*y), l.f(*z)));
-            queue_shadow_ray(chunk, &point, (&sample, SampleWeight::Fixed(1.0)), l.u(*number), shadows, deposits);
+            queue_shadow_ray(chunk, &point, (&sample, SampleWeight::Fixed(1.0)), l.u(*number << code::NUMBER_SHIFT), shadows, deposits);
         }
     }
 }

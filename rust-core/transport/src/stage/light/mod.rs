@@ -5,6 +5,7 @@ pub(crate) mod linked_shadow;
 pub(crate) mod measure;
 pub(crate) mod merge;
 pub(crate) mod nee;
+pub(crate) mod openings;
 pub(crate) mod seen_through;
 pub(crate) mod shadow;
 pub(crate) mod terminator;

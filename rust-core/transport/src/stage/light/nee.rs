@@ -74,7 +74,9 @@ pub(crate) fn queue_shadow_ray<L: Lanes>(
     let (value, ceiling) = clamped(tables, transport, sample, whole, point.bounces + 1);
     let lit = usable & value.is_lit() & value.abs().max_component().is_finite();
     deposits.note_lost(&point.at, present.and_not(lit));
-    let code = with_sample(transport.passes.expressions.as_deref(), code_of_sampled(point.core.flags), point.core.flags, !wi.z.gt(0.0));
+    let through = !wi.z.gt(0.0);
+    let flags = transport.passes.behind(point.core.flags, point.instance, through);
+    let code = with_sample(&transport.passes, code_of_sampled(flags), flags, through);
     let shares = if deposits.wants_shares(transport) { Some(shares(l, lobes, point.local_wo, wi, f)) } else { None };
     let light = Contribution::sampled(sample.light, point.core.slot, value, code, shares);
     let along = point.along(tables, transport, sample.wi, ceiling);

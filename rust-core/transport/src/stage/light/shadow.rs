@@ -8,6 +8,7 @@ use crate::kernels;
 use crate::stage::find::closures::{ClosureHits, MaterialHits, each_closure};
 use crate::stage::light::linked_shadow;
 use crate::stage::light::nee::clamps_late;
+use crate::stage::light::openings::note_openings;
 use crate::stage::light::textured_emission;
 use crate::stage::shade::catcher;
 use crate::state::chunk::ChunkColumns;
@@ -47,6 +48,9 @@ pub(crate) fn trace_shadows(
     textured_emission::multiply(tables, transport, trace, shadows, chunk);
     if clamps_late(tables, transport) {
         dispatch!(transport.execution, l => shadows.clamp(l));
+    }
+    if let Some(openings) = &transport.passes.openings {
+        note_openings(openings, trace, shadows);
     }
     dispatch!(transport.execution, l => add_arrived(l, transport, shadows, &trace.blocked, deposits));
     deposits.note_arrivals(shadows, &trace.blocked);

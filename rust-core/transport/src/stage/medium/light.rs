@@ -194,7 +194,7 @@ fn send_on<L: Lanes>(
     let (value, ceiling) = clamped(tables, transport, sample, whole, way.bounces() + 1);
     let lit = usable & value.is_lit() & value.abs().max_component().is_finite();
     let flags = flags(context, way);
-    let code = with_state(transport.passes.expressions.as_deref(), code_of_found(flags, 0), flags);
+    let code = with_state(&transport.passes, code_of_found(flags, 0), flags);
     let shares = if deposits.wants_shares(transport) { Some([Spectrum::one(l), Spectrum::zero(l)]) } else { None };
     let light = Contribution::sampled(sample.light, way.core.slot, value, code, shares);
     let along = Along::new(tables, transport, way.core.media, way.core.counts, ceiling);

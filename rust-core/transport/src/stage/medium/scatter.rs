@@ -12,7 +12,7 @@ use crate::state::paths::{PathLanes, Paths};
 use crate::state::rays::RayLanes;
 use crate::state::vertex::CONE_PER_ROUGHNESS;
 use crate::tables::expressions::scattering;
-use crate::tables::transport::PathFilter;
+use crate::tables::transport::{Passes, PathFilter};
 use crate::words::{event, flag};
 use gonio_camera::sampler::dimension;
 use gonio_light::LightSampleContext;
@@ -34,7 +34,7 @@ pub(super) fn flags<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>) -> U<L>
     let scattered = kept | flag::scattered(before, l.u(event::VOLUME));
     let state = match &context.transport.passes.expressions {
         Some(expressions) => expressions.step(before, l.u(scattering::VOLUME)),
-        None => l.u(0),
+        None => Passes::opening(before),
     };
     scattered | state | (flag::NON_SPECULAR_SEEN | flag::ROUGH)
 }

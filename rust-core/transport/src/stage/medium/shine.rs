@@ -88,7 +88,7 @@ fn deposit_part<L: Lanes>(
     let light = Contribution {
         slot: way.core.slot,
         value,
-        code: with_state(transport.passes.expressions.as_deref(), code_of_found(flags, code::EMISSION), flags),
+        code: with_state(&transport.passes, code_of_found(flags, code::EMISSION), flags),
         shares: None,
         specular: is_specular_path(flags, way.core.slot),
         source,

@@ -10,6 +10,7 @@ use crate::state::queue::walks::{WalkLanes, Walks};
 use crate::state::rays::RayLanes;
 use crate::state::vertex::{CONE_PER_ROUGHNESS, Vertex};
 use crate::tables::material::{SurfaceMaterial, threshold};
+use crate::tables::transport::Passes;
 use crate::words::{counts, event, flag};
 use gonio_bsdf::{BsdfSample, Lobes, subsurface::WalkMedium};
 use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
@@ -44,7 +45,8 @@ fn pass_straight<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, chose
         return;
     }
     let before = chunk.paths.previous(chunk.l, point.path);
-    next.append(&point.straight_on(&straight_on(chunk, point), before, chunk.straight), chosen);
+    let flags = chunk.transport.passes.behind(point.core.flags, point.instance, chosen);
+    next.append(&point.straight_on(&straight_on(chunk, point), before, (flags, chunk.straight)), chosen);
 }
 
 /// Starts subsurface random walks.
@@ -149,12 +151,14 @@ fn flags<L: Lanes>(chunk: &ChunkContext<'_, L>, point: &Vertex<L>, sample: &Bsdf
     let kind = sample.diffuse.select(l.u(event::DIFFUSE), sample.transmitted.select(l.u(event::TRANSMISSION), l.u(event::GLOSSY)));
     let kept = left_to_light_paths(chunk, point, sample);
     let scattered = delta | non_specular | kept | clear(chunk, point, sample) | flag::scattered(point.core.flags, kind);
-    match &chunk.transport.passes.expressions {
-        Some(expressions) => {
-            let event = scattering_of(l, [sample.diffuse, sample.delta, !sample.wi.z.gt(0.0)]);
+    let (passes, through) = (&chunk.transport.passes, !sample.wi.z.gt(0.0));
+    match (&passes.expressions, &passes.openings) {
+        (Some(expressions), _) => {
+            let event = scattering_of(l, [sample.diffuse, sample.delta, through]);
             scattered | expressions.step(point.core.flags, event)
         }
-        None => scattered,
+        (None, Some(_)) => scattered | Passes::opening(passes.behind(point.core.flags, point.instance, through)),
+        (None, None) => scattered,
     }
 }
 
@@ -221,7 +225,7 @@ pub(crate) fn send_on<L: Lanes>(
         throughput,
         width,
         spread: point.core.spread + sample.roughness * CONE_PER_ROUGHNESS,
-        flags: straight.select(point.core.flags | non_specular, scattered),
+        flags: straight.select(chunk.transport.passes.behind(point.core.flags, point.instance, straight) | non_specular, scattered),
         counts: point.core.counts + straight.select(l.u(chunk.straight), counted),
         media: point.media_towards(across, straight),
         ..point.core

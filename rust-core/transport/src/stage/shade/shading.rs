@@ -273,7 +273,7 @@ fn add_emission<L: Lanes>(
     let light = Contribution {
         slot: point.core.slot,
         value,
-        code: with_state(expressions, code_of_found(point.core.flags, code::EMISSION), point.core.flags),
+        code: with_state(&transport.passes, code_of_found(point.core.flags, code::EMISSION), point.core.flags),
         shares: None,
         specular: is_specular_path(point.core.flags, point.core.slot),
         source,
