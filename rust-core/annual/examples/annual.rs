@@ -10,7 +10,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let [weather, open, direct @ ..] = &arguments[..] else { return Err("a weather file and coefficients are needed".into()) };
     let year = Year::read(Path::new(weather), &fs::read(weather)?)?;
     let read = |path: &String| -> Result<_, Box<dyn Error>> { Ok(Coefficients::read(Path::new(path), &fs::read(path)?)?) };
-    let group = Group { open: read(open)?, direct: direct.first().map(read).transpose()?, sun: None, scattered: None, blinds: None };
+    let group =
+        Group { open: read(open)?, direct: direct.first().map(read).transpose()?, sun: None, scattered: None, blinds: None, closed: None };
     let settings = Settings { sky: SkyOptions::default(), memory: 1 << 28, threads: 2, electric: None };
     let schedule = Schedule::daily(&year, 8.0, 18.0)?;
     let grid = evaluate(&year, &schedule, &[group], &settings, &mut |_| true)?;

@@ -1,6 +1,6 @@
 //! Groups of windows and their blinds.
 
-use crate::Coefficients;
+use crate::{Coefficients, Schedule};
 
 /// What blinds leave of a group's light when they are closed.
 #[derive(Clone, Debug)]
@@ -23,6 +23,8 @@ pub struct Group {
     /// Of light that was scattered on its way: points × patches. Where it is given, the sun itself stands at its place, by `direct` of suns, and what it
     /// lights otherwise is in the patches.
     pub scattered: Option<Coefficients>,
-    /// The blinds, which direct sun closes; `None` where there are none.
+    /// The blinds; `None` where there are none.
     pub blinds: Option<Blinds>,
+    /// When they are closed, as if that were when a room is used; `None` leaves it to direct sun.
+    pub closed: Option<Schedule>,
 }

@@ -1,4 +1,4 @@
-//! When the blinds of groups of windows are closed (LM-83-12, 2.2.6): when more than 2 % of the points get direct sun by all groups together, groups close
+//! When the blinds of groups of windows are closed: by a schedule, or by direct sun (LM-83-12, 2.2.6). By direct sun: when more than 2 % of the points get direct sun by all groups together, groups close
 //! until no more do. Of the ways to do so that which leaves most light is taken.
 
 /// Direct sun that has blinds closed, lx.
@@ -15,13 +15,31 @@ pub(super) struct GroupLight {
     pub(super) direct: Option<Vec<f32>>,
     /// Whether there are blinds.
     pub(super) has_blinds: bool,
+    /// In which steps they are closed, where a schedule says so.
+    pub(super) closed: Option<Vec<bool>>,
+}
+
+impl GroupLight {
+    /// Whether a schedule has its blinds closed in a step.
+    fn is_closed(&self, step: usize) -> bool {
+        self.has_blinds && self.closed.as_ref().is_some_and(|closed| closed[step])
+    }
+
+    /// Whether direct sun closes its blinds.
+    fn is_operable(&self) -> bool {
+        self.has_blinds && self.closed.is_none() && self.direct.is_some()
+    }
 }
 
 /// By group, in which steps its blinds are closed; `closed` gives what then comes in, asked for when any step wants it.
 pub(super) fn operated(groups: &[GroupLight], steps: usize, closed: impl Fn(usize) -> Vec<f32>) -> Vec<Option<Operated>> {
-    let operable: Vec<usize> = (0..groups.len()).filter(|group| groups[*group].has_blinds && groups[*group].direct.is_some()).collect();
+    let operable: Vec<usize> = (0..groups.len()).filter(|group| groups[*group].is_operable()).collect();
     let too_sunny = too_sunny(groups, steps);
-    let mut found: Vec<Option<Operated>> = groups.iter().map(|_| None).collect();
+    let scheduled = |(number, group): (usize, &GroupLight)| {
+        let steps = group.closed.clone().filter(|closed| group.has_blinds && closed.contains(&true))?;
+        Some(Operated { light: closed(number), steps })
+    };
+    let mut found: Vec<Option<Operated>> = groups.iter().enumerate().map(scheduled).collect();
     if operable.is_empty() || !too_sunny.contains(&true) {
         return found;
     }
@@ -46,14 +64,15 @@ pub(super) struct Operated {
     pub(super) steps: Vec<bool>,
 }
 
-/// In which steps more than 2 % of the points get direct sun by all groups.
+/// In which steps more than 2 % of the points get direct sun by all groups that no schedule has closed.
 fn too_sunny(groups: &[GroupLight], steps: usize) -> Vec<bool> {
-    let direct: Vec<&[f32]> = groups.iter().filter_map(|group| group.direct.as_deref()).collect();
-    let points = direct.first().map_or(0, |rows| rows.len() / steps);
+    let direct: Vec<(&GroupLight, &[f32])> = groups.iter().filter_map(|group| Some((group, group.direct.as_deref()?))).collect();
+    let points = direct.first().map_or(0, |(_, rows)| rows.len() / steps);
     let mut sunny = vec![0_usize; steps];
     for row in 0..points {
         for (step, sunny) in sunny.iter_mut().enumerate() {
-            *sunny += usize::from(direct.iter().map(|rows| rows[row * steps + step]).sum::<f32>() >= TOO_BRIGHT);
+            let open = direct.iter().filter(|(group, _)| !group.is_closed(step));
+            *sunny += usize::from(open.map(|(_, rows)| rows[row * steps + step]).sum::<f32>() >= TOO_BRIGHT);
         }
     }
     sunny.into_iter().map(|count| is_too_many(count, points)).collect()
@@ -78,7 +97,10 @@ impl Step {
         let cost =
             |(group, closed): (&GroupLight, &Option<Operated>)| closed.as_ref().map_or(0.0, |closed| sum(&group.open) - sum(&closed.light));
         Self {
-            suns: groups.iter().map(|group| group.direct.as_deref().map(column).unwrap_or_default()).collect(),
+            suns: groups
+                .iter()
+                .map(|group| group.direct.as_deref().filter(|_| !group.is_closed(step)).map(column).unwrap_or_default())
+                .collect(),
             costs: groups.iter().zip(closed).map(cost).collect(),
         }
     }
@@ -141,7 +163,7 @@ mod tests {
     /// A group of 100 points in one step, with sun on some.
     fn group(sunny: std::ops::Range<usize>, open: f32) -> GroupLight {
         let direct = (0..100).map(|point| if sunny.contains(&point) { 2000.0 } else { 0.0 }).collect();
-        GroupLight { open: vec![open; 100], direct: Some(direct), has_blinds: true }
+        GroupLight { open: vec![open; 100], direct: Some(direct), has_blinds: true, closed: None }
     }
 
     fn which(groups: &[GroupLight]) -> Vec<bool> {
@@ -163,6 +185,17 @@ mod tests {
         let mut bare = group(0..2, 500.0);
         bare.has_blinds = false;
         assert_eq!(which(&[bare, group(10..12, 300.0)]), [false, true]);
+    }
+
+    #[test]
+    fn schedules_close_what_they_say() {
+        let scheduled = |sunny, closed| GroupLight { closed: Some(vec![closed]), ..group(sunny, 500.0) };
+        // Sun or none: it is the schedule's to say.
+        assert_eq!(which(&[scheduled(0..0, true)]), [true]);
+        assert_eq!(which(&[scheduled(0..50, false)]), [false]);
+        // What it has closed brings no sun that others had to close for; what it leaves open does.
+        assert_eq!(which(&[scheduled(0..2, true), group(10..12, 300.0)]), [true, false]);
+        assert_eq!(which(&[scheduled(0..2, false), group(10..12, 300.0)]), [false, true]);
     }
 
     #[test]

@@ -22,6 +22,8 @@ pub(super) struct Columns {
     pub(super) sky: Vec<f32>,
     /// Column and luminance in cd/m² of each step's sun.
     pub(super) suns: Vec<Option<(usize, f32)>>,
+    /// The steps.
+    pub(super) steps: Vec<usize>,
 }
 
 impl Columns {
@@ -35,6 +37,6 @@ impl Columns {
             [(skies.all, true), (skies.alone, is_in_patches), (skies.sky, is_apart)].map(|(of, needed)| columns(of, needed));
         let disc = PI * (0.5 * SUN_ANGLE_DEG).to_radians().powi(2);
         let sun = |step: &usize| Some((skies.suns[*step]?, (skies.all.conditions(*step)?.direct_normal / disc) as f32));
-        Self { all, alone, sky, suns: steps.iter().map(sun).collect() }
+        Self { all, alone, sky, suns: steps.iter().map(sun).collect(), steps: steps.to_vec() }
     }
 }

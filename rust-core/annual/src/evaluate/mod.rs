@@ -58,21 +58,31 @@ pub fn evaluate(
         .map(|without| (Prepared::all(groups, without), Counts::new(shape.points, settings.electric)))
         .collect();
     let lit: Vec<usize> = (0..year.steps.len()).filter(|step| all.conditions(*step).is_some()).collect();
+    let mut closed = vec![0; groups.len()];
     let skies = columns::Skies { all: &all, alone: &alone, sky: &sky, suns: &shape.suns };
     for steps in lit.chunks(steps_of_a_chunk(settings, &shape, groups)) {
         let columns = columns::Columns::new(&skies, groups, &shape, steps, settings.threads);
         for (index, (prepared, counts)) in variants.iter_mut().enumerate() {
-            let (total, direct) = prepared::light(prepared, &columns, settings.threads);
-            let chunk = Chunk { steps, total: &total, direct: direct.as_deref(), without: index.checked_sub(1) };
+            let light = prepared::light(prepared, &columns, settings.threads);
+            let chunk = Chunk { steps, total: &light.total, direct: light.direct.as_deref(), without: index.checked_sub(1) };
             if !take(&chunk) {
                 return Ok(None);
             }
             counts.add(&chunk, schedule, &half);
+            if index == 0 {
+                let used = |of: &Vec<bool>| steps.iter().zip(of).filter(|(step, closed)| **closed && schedule.is_used(**step)).count();
+                closed.iter_mut().zip(&light.closed).for_each(|(count, of)| *count += used(of));
+            }
         }
     }
     let factors = daylight_factor::of_points(groups, &options, shape.blocks)?;
     let variants = variants.into_iter().zip(factors).map(|((_, counts), factors)| Variant { counts, factors }).collect::<Vec<_>>();
-    Ok(Some(Grid::new(&variants, year, schedule, &half, shape.has_direct)))
+    let closed_hours = if groups.iter().any(|group| group.blinds.is_some()) {
+        closed.into_iter().map(|count| count as f64 * year.step_hours).collect()
+    } else {
+        Vec::new()
+    };
+    Ok(Some(Grid { closed_hours, ..Grid::new(&variants, year, schedule, &half, shape.has_direct) }))
 }
 
 /// As many steps as fit into the memory.

@@ -5,7 +5,7 @@ use super::{
     columns::Columns,
 };
 use crate::{
-    Coefficients,
+    Coefficients, Schedule,
     group::{Blinds, Group},
     product::Panels,
 };
@@ -17,6 +17,7 @@ pub(super) struct Prepared {
     sun: Option<Direct>,
     scattered: Option<Panels>,
     blinds: Option<Closed>,
+    closed: Option<Schedule>,
 }
 
 enum Direct {
@@ -49,6 +50,7 @@ impl Prepared {
                 Blinds::Share(share) => Closed::Share(*share),
                 Blinds::Coefficients(closed) => Closed::Panels(panels(closed)),
             }),
+            closed: group.closed.clone(),
         };
         groups.iter().map(prepare).collect()
     }
@@ -71,24 +73,35 @@ impl Direct {
     }
 }
 
-/// Light of all groups at `[point][step]` in lx: of sky and sun with blinds as they are operated, and of the sun alone through open ones.
-pub(super) fn light(groups: &[Prepared], columns: &Columns, threads: usize) -> (Vec<f32>, Option<Vec<f32>>) {
+/// Light of all groups at `[point][step]` in lx.
+pub(super) struct Light {
+    /// Of sky and sun with blinds as they are operated.
+    pub(super) total: Vec<f32>,
+    /// Of the sun alone through open ones.
+    pub(super) direct: Option<Vec<f32>>,
+    /// By group, in which steps its blinds are closed; empty where they never are.
+    pub(super) closed: Vec<Vec<bool>>,
+}
+
+/// The light of all groups.
+pub(super) fn light(groups: &[Prepared], columns: &Columns, threads: usize) -> Light {
     let steps = columns.suns.len();
     let open: Vec<GroupLight> = groups.iter().map(|group| group.open_light(columns, threads)).collect();
     let operated = operated(&open, steps, |group| groups[group].closed_light(&open[group].open, columns, threads));
     let knows_sun = open.iter().all(|group| group.direct.is_some());
-    let (mut total, mut direct): (Vec<f32>, Option<Vec<f32>>) = (Vec::new(), None);
+    let (mut total, mut direct, mut closed): (Vec<f32>, Option<Vec<f32>>, Vec<Vec<bool>>) = Default::default();
     for (GroupLight { open: mut light, direct: of_sun, .. }, operated) in open.into_iter().zip(operated) {
-        if let Some(operated) = operated {
+        closed.push(operated.map_or_else(Vec::new, |operated| {
             close(&mut light, &operated);
-        }
+            operated.steps
+        }));
         total = if total.is_empty() { light } else { sum(total, &light) };
         direct = match (direct, of_sun) {
             (Some(others), Some(of_sun)) => Some(sum(others, &of_sun)),
             (others, of_sun) => others.or(of_sun),
         };
     }
-    (total, direct.filter(|_| knows_sun))
+    Light { total, direct: direct.filter(|_| knows_sun), closed }
 }
 
 impl Prepared {
@@ -103,7 +116,8 @@ impl Prepared {
             }
             _ => self.open.times(&columns.all, threads),
         };
-        GroupLight { open, direct: of_sun, has_blinds: self.blinds.is_some() }
+        let closed = self.closed.as_ref().map(|closed| columns.steps.iter().map(|step| closed.is_used(*step)).collect());
+        GroupLight { open, direct: of_sun, has_blinds: self.blinds.is_some(), closed }
     }
 
     /// Its light with blinds closed, of which `open` is that with open ones.

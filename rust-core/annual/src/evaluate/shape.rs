@@ -43,7 +43,7 @@ pub(super) fn shape(groups: &[Group], year: &Year) -> Result<Shape> {
                 "direct coefficients of suns are missing: they bring the rest of the sun's light",
             ));
         }
-        if group.blinds.is_some() && group.direct.is_none() {
+        if group.blinds.is_some() && group.closed.is_none() && group.direct.is_none() {
             return Err(AnnualError::setting("blinds", "direct coefficients are missing: direct sun is what closes blinds"));
         }
         shape.has_direct &= group.direct.is_some();

@@ -41,6 +41,9 @@ pub struct Grid {
     pub electric: Option<Electric>,
     /// Used hours of the year.
     pub used_hours: f64,
+    /// By group of windows, used hours with its blinds closed; empty where there are no blinds.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub closed_hours: Vec<f64>,
     /// The points in the order of the coefficients' rows.
     pub points: Vec<Point>,
     /// Standard errors of the figures above, where coefficients have blocks.
@@ -99,6 +102,7 @@ impl Grid {
             },
             electric: None,
             used_hours,
+            closed_hours: Vec::new(),
             points,
             standard_errors: None,
         }

@@ -84,7 +84,7 @@ fn matrices_fit_each_other_and_the_year() {
     let schedule = Schedule::daily(&year, 8.0, 18.0).expect("a schedule");
     let wrong = |groups: &[Group]| evaluate(&year, &schedule, groups, &settings(), &mut |_| true).expect_err("does not fit").to_string();
     let of = |points: usize, columns: usize| Coefficients::new(points, columns, vec![vec![0.0; points * columns]]).expect("coefficients");
-    let plain = || Group { open: of(2, 146), direct: None, sun: None, scattered: None, blinds: None };
+    let plain = || Group { open: of(2, 146), direct: None, sun: None, scattered: None, blinds: None, closed: None };
     assert!(wrong(&[Group { open: of(2, 145), ..plain() }]).contains("145 columns, expected those of a sky with its ground: 146, 578"));
     assert!(wrong(&[Group { direct: Some(of(3, 146)), ..plain() }]).contains("3 rows, expected 2"));
     assert!(wrong(&[Group { direct: Some(of(2, 7)), ..plain() }]).contains("7 columns, expected 146 (patches) or 4"));

@@ -158,6 +158,20 @@ fn groups_have_blinds_of_their_own_and_their_light_adds_up() {
 }
 
 #[test]
+fn schedules_close_blinds_in_their_hours() {
+    let closed = Schedule::daily(&year(), 12.0, 24.0).expect("a schedule");
+    let open = group(&[level(0.01)]);
+    let scheduled = Group { blinds: Some(Blinds::Share(0.0)), closed: Some(closed), ..open.clone() };
+    let [open, scheduled] = [open, scheduled].map(|group| found(&[group], &settings()));
+    // Five hours with light of each day's ten, which lasts until 17 o'clock.
+    assert!(scheduled.closed_hours == [5.0 * 365.0] && open.closed_hours.is_empty());
+    let share = scheduled.points[0].mean_lx / open.points[0].mean_lx;
+    let light = outside();
+    let morning = light.iter().enumerate().filter(|(used, _)| used % 10 < 4).map(|(_, lux)| lux).sum::<f64>() / light.iter().sum::<f64>();
+    assert!((share / morning - 1.0).abs() < 1e-5, "{share} {morning}");
+}
+
+#[test]
 fn a_sun_with_all_its_bounces_takes_the_place_of_the_one_in_the_patches() {
     let only_sky = group(&[level(0.02)]);
     let with_sun = Group { sun: Some(suns(&[0.0])), ..only_sky.clone() };
@@ -170,7 +184,7 @@ fn blocks_give_standard_errors() {
     // Two estimates that are 10 % above and below: the mean's standard error is 10 % of it.
     let blocks = vec![level(0.018), level(0.022)];
     let open = Coefficients::new(1, 146, blocks).expect("coefficients");
-    let grid = found(&[Group { open, direct: None, sun: None, scattered: None, blinds: None }], &settings());
+    let grid = found(&[Group { open, direct: None, sun: None, scattered: None, blinds: None, closed: None }], &settings());
     let errors = grid.standard_errors.as_ref().expect("errors");
     assert!((errors.points[0].mean_lx / grid.points[0].mean_lx - 0.1).abs() < 1e-4);
     assert!((errors.median_daylight_factor / grid.median_daylight_factor - 0.1).abs() < 1e-4);

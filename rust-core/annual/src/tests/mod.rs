@@ -44,7 +44,7 @@ fn made_up() -> Year {
 /// One group without blinds.
 fn group(rows: &[Vec<f32>]) -> Group {
     let open = Coefficients::new(rows.len(), rows[0].len(), vec![rows.concat()]).expect("coefficients");
-    Group { open, direct: None, sun: None, scattered: None, blinds: None }
+    Group { open, direct: None, sun: None, scattered: None, blinds: None, closed: None }
 }
 
 fn settings() -> Settings {

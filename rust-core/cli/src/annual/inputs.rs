@@ -115,11 +115,11 @@ fn group(options: &AnnualMetricsOptions, index: usize) -> Result<Group> {
         Some(closed) => Some(Blinds::Coefficients(closed)),
         None => share(options.blinds)?.map(Blinds::Share),
     };
-    Ok(Group { open, direct: of(&options.sun_coefficients)?, sun: of(&options.sun_total)?, scattered: None, blinds })
+    Ok(Group { open, direct: of(&options.sun_coefficients)?, sun: of(&options.sun_total)?, scattered: None, blinds, closed: None })
 }
 
 /// Hours of every day, such as 8-18, else a file.
-fn schedule(text: &str, year: &Year) -> Result<Schedule> {
+pub(super) fn schedule(text: &str, year: &Year) -> Result<Schedule> {
     let hours = text.split_once('-').and_then(|(from, to)| Some((from.trim().parse().ok()?, to.trim().parse().ok()?)));
     let found = match hours {
         Some((from, to)) => Schedule::daily(year, from, to),
