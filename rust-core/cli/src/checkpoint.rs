@@ -3,17 +3,12 @@
 use super::{arguments::CheckpointArguments, messages::say};
 use gonio::{
     Error, Result,
-    checkpoint::{Checkpoint, Identity, parts, write_checkpoint},
+    checkpoint::{Checkpoint, Identity, Pace, parts, write_checkpoint},
     film::Film,
     scene::Settings,
 };
-use std::{
-    path::PathBuf,
-    time::{Duration, Instant},
-};
+use std::{path::PathBuf, time::Duration};
 
-/// Writing takes at most one part in so many of the time.
-const SHARE: u32 = 20;
 /// Longest time between checkpoints, seconds.
 const MOST_SECONDS: f64 = 1e9;
 
@@ -22,23 +17,18 @@ pub(super) struct Keeper {
     path: PathBuf,
     identity: Identity,
     resume: bool,
-    every: Duration,
-    due: Instant,
+    pace: Pace,
 }
 
 impl Keeper {
     /// A keeper of one render's checkpoint; a file that is there already and is not to be resumed is an error.
     pub(super) fn new(path: PathBuf, identity: Identity, arguments: &CheckpointArguments) -> Result<Self> {
-        let seconds = arguments.checkpoint_every;
-        if seconds.is_nan() || seconds < 0.0 {
-            return Err(Error::setting("checkpoint-every", format!("{seconds} was found, expected seconds from 0 on")));
-        }
+        let pace = Pace::new(every(arguments.checkpoint_every)?);
         if path.exists() && !arguments.resume {
             let problem = format!("{} is there already; --resume goes on with it, or remove it", path.display());
             return Err(Error::setting("checkpoint", problem));
         }
-        let every = Duration::from_secs_f64(seconds.min(MOST_SECONDS));
-        Ok(Self { path, identity, resume: arguments.resume, every, due: Instant::now() + every })
+        Ok(Self { path, identity, resume: arguments.resume, pace })
     }
 
     /// What an earlier run has left.
@@ -48,7 +38,7 @@ impl Keeper {
 
     /// Writes a checkpoint if it is time. One that cannot be written does not end the render, which may yet find room.
     pub(super) fn keep_if_due(&mut self, film: &Film) {
-        if Instant::now() >= self.due
+        if self.pace.is_due()
             && let Err(error) = self.keep(film)
         {
             say(&format!("warning: the checkpoint could not be written: {error}"));
@@ -57,20 +47,29 @@ impl Keeper {
 
     /// Writes a checkpoint.
     pub(super) fn keep(&mut self, film: &Film) -> Result<()> {
-        let start = Instant::now();
-        let result = write_checkpoint(&self.path, &self.identity, film);
-        self.due = Instant::now() + self.every.max(SHARE * start.elapsed());
-        result
+        self.pace.written(|| write_checkpoint(&self.path, &self.identity, film))
     }
+}
+
+/// The time between two checkpoints, from seconds.
+pub(super) fn every(seconds: f64) -> Result<Duration> {
+    if seconds.is_nan() || seconds < 0.0 {
+        return Err(Error::setting("checkpoint-every", format!("{seconds} was found, expected seconds from 0 on")));
+    }
+    Ok(Duration::from_secs_f64(seconds.min(MOST_SECONDS)))
+}
+
+/// A part and how many there are, from `NUMBER/COUNT`.
+pub(super) fn part_of(text: &str) -> Result<[u32; 2]> {
+    let number = |text: &str| text.trim().parse::<u32>().ok();
+    let pair = text.split_once('/').and_then(|(part, count)| Some([number(part)?, number(count)?]));
+    pair.filter(|[part, count]| (1..=*count).contains(part))
+        .ok_or_else(|| Error::setting("part", format!("'{text}' was found, expected NUMBER/COUNT as in 1/8 to 8/8")))
 }
 
 /// Leaves of what settings ask for a part, from `NUMBER/COUNT`.
 pub(super) fn take_part(text: &str, settings: &mut Settings) -> Result<()> {
-    let number = |text: &str| text.trim().parse::<u32>().ok();
-    let pair = text.split_once('/').and_then(|(part, count)| Some((number(part)?, number(count)?)));
-    let (part, count) = pair
-        .filter(|(part, count)| (1..=*count).contains(part))
-        .ok_or_else(|| Error::setting("part", format!("'{text}' was found, expected NUMBER/COUNT as in 1/8 to 8/8")))?;
+    let [part, count] = part_of(text)?;
     let parts = parts(settings, count)?;
     if parts.len() != count as usize {
         return Err(Error::setting("part", format!("there cannot be {count} parts of this render, but {}", parts.len())));

@@ -19,7 +19,7 @@ pub(super) fn merge(options: &MergeArguments) -> Result<i32> {
     let whole = join(&options.parts)?;
     let range = whole.film.range();
     if !options.quiet {
-        say(&format!("{} parts, samples {}:{} of {}", options.parts.len(), range.start, range.end, whole.identity.settings.samples));
+        say(&format!("{} parts, samples {}:{} of {}", options.parts.len(), range.start, range.end, whole.identity.stamp.settings.samples));
     }
     let notes = Notes { exposure: whole.identity.exposure, attributes: &whole.identity.notes, ..Notes::default() };
     let mut image = whole.film.develop();

@@ -68,6 +68,7 @@ pub fn trace_eyes(scene: &Scene, eyes: &[Eye], task: &AnnualTask<'_>, execution:
         direct: Some(matrix(std::slice::from_ref(&found.suns), eyes.len(), rows)?),
         sun: None,
         blinds: None,
+        closed: None,
     };
     Ok(EyesTraced { group, views, diagnostics: found.diagnostics })
 }

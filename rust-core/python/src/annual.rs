@@ -5,12 +5,13 @@ use crate::{
     daylight::up_axis,
     description,
     error::{self, exception, setting},
+    facades::Said,
     scene::Scene,
     watched::{unless, watched},
 };
 use gonio::{
     Error,
-    annual::{AnnualGrid, AnnualTask, told, trace},
+    annual::{AnnualGrid, AnnualTask, Checkpoints, told, trace},
     measure::{MOST_BOUNCES, Watch},
     scene::{Integrator, Scene as Description},
     sky::{Frame, SkyModel},
@@ -20,11 +21,17 @@ use gonio_annual::{
     sky::{Model, SkyOptions},
 };
 use gonio_simd::Execution;
-use pyo3::prelude::*;
-use std::path::Path;
+use pyo3::{prelude::*, types::PyDict};
+use std::{
+    path::{Path, PathBuf},
+    time::Duration,
+};
 
 /// Bytes of the hours that are calculated together.
 pub(crate) const MEMORY: usize = 256 << 20;
+
+/// Time between two checkpoints.
+const EVERY: Duration = Duration::from_secs(60);
 
 /// A year of daylight on one grid.
 #[pyclass(frozen, module = "gonio")]
@@ -112,12 +119,15 @@ impl AnnualReading {
 /// sky and sun give way to the weather's.
 ///
 /// weather: the bytes of an EPW or WEA file of a whole year; division: Reinhart's of the sky, 1 to 6; schedule: hours of use of every day, or 0 or 1
-/// for each step; blinds: share of light that closed blinds let through; closed: the scene with closed blinds, in place of that share; sky: perez, or
-/// cie1 to cie16; ground: albedo; dew_point: °C; up and north: the scene's axis, and degrees clockwise of true north; lighting: the lamps whose energy
+/// for each step; groups: windows whose blinds are operated together, a dictionary of names and prims (one or several, each with all below it) through which
+/// their light comes; blinds: share of light that closed blinds let through; closed: the scene with closed blinds, in place of that share; closed_hours: when
+/// they are closed, as a schedule, in place of direct sun closing them; each of these three of all groups, or a dictionary by name; sky: perez, or cie1 to cie16; ground: albedo; dew_point: °C; up and north: the scene's axis, and degrees clockwise of true north; lighting: the lamps whose energy
 /// beside daylight is asked for (LENI), a dictionary of power_w_m2, target_lx, control ("dimming" or "switching"), least, sensor ("least", "mean" or
-/// "points"), presence and standby_kwh_m2.
+/// "points"), presence and standby_kwh_m2; checkpoint: a file that keeps finished rounds, once a minute and at the end; resume: whether to go on with it
+/// where it is there; part: one part alone, such as (3, 4), is traced into it, and there are no readings; merge: the parts' checkpoints, whose rounds are
+/// taken in place of tracing.
 #[pyfunction]
-#[pyo3(signature = (scene, weather, *, samples = 8192, division = 2, schedule = None, blinds = None, closed = None, sky = "perez", ground = 0.2, dew_point = None, up = "Z", north = 0.0, lighting = None, cancelled = None))]
+#[pyo3(signature = (scene, weather, *, samples = 8192, division = 2, schedule = None, groups = None, blinds = None, closed = None, closed_hours = None, sky = "perez", ground = 0.2, dew_point = None, up = "Z", north = 0.0, lighting = None, checkpoint = None, resume = false, part = None, merge = Vec::new(), cancelled = None))]
 #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
 pub(crate) fn annual(
     py: Python<'_>,
@@ -126,41 +136,46 @@ pub(crate) fn annual(
     samples: u32,
     division: u32,
     schedule: Option<&Bound<'_, PyAny>>,
-    blinds: Option<f32>,
-    closed: Option<&Scene>,
+    groups: Option<&Bound<'_, PyDict>>,
+    blinds: Option<&Bound<'_, PyAny>>,
+    closed: Option<&Bound<'_, PyAny>>,
+    closed_hours: Option<&Bound<'_, PyAny>>,
     sky: &str,
     ground: f64,
     dew_point: Option<f64>,
     up: &str,
     north: f64,
     lighting: Option<&Bound<'_, PyAny>>,
+    checkpoint: Option<PathBuf>,
+    resume: bool,
+    part: Option<[u32; 2]>,
+    merge: Vec<PathBuf>,
     cancelled: Option<Py<PyAny>>,
 ) -> PyResult<Vec<AnnualReading>> {
     let year = Year::read(Path::new("weather"), weather).map_err(|error| exception(told(error)))?;
     let schedule = used_steps(schedule, &year)?;
-    if let Some(share) = blinds.filter(|share| !(0.0..=1.0).contains(share)) {
-        return Err(setting("blinds", format!("{share} was found, expected 0 to 1")));
-    }
+    let (facades, closed) = Said { groups, blinds, closed, closed_hours }.facades(&year, samples)?;
     let sky = SkyOptions { model: model(sky)?, ground, dew_point_c: dew_point, ..SkyOptions::default() };
     let electric = lighting.map(|lighting| description::read(lighting, "lighting")).transpose()?;
-    let [open, closed] = [Some(scene), closed].map(|scene| scene.map(|scene| measured(&scene.scene, samples)));
-    let Some(open) = open else { return Ok(Vec::new()) };
+    let open = measured(&scene.scene, samples);
     let task = AnnualTask {
         year: &year,
         frame: Frame { up_axis: up_axis(up)?, north_deg: north },
         factor: division,
-        blinds,
-        closed: closed.as_ref(),
+        facades: &facades,
+        closed: &closed,
     };
+    let checkpoints = Checkpoints { path: checkpoint, every: EVERY, resume, part, merge };
     let ask = |py: Python<'_>, _: Option<&gonio::render::Progress>| unless(py, cancelled.as_ref());
     watched(py, ask, |stop, progress| {
         let (grids, mut diagnostics) = AnnualGrid::all(&open)?;
         let mut watch = Watch { previous: None, cancel: stop, progress };
-        let (groups, of_light) = trace(&open, &grids, &task, Execution::detect(), &mut watch)?;
+        let (groups, of_light) = trace(&open, &grids, (&task, &checkpoints), Execution::detect(), &mut watch)?;
+        let Some(groups) = groups else { return Ok(Vec::new()) };
         diagnostics.extend(of_light);
         let diagnostics = error::told(&diagnostics);
         let settings = Settings { sky, memory: MEMORY, threads: gonio::threads::available_threads(), electric };
-        grids.into_iter().zip(groups).map(|(place, group)| reading((place, group, &diagnostics), (&year, &schedule), &settings)).collect()
+        grids.into_iter().zip(groups).map(|(place, groups)| reading((place, groups, &diagnostics), (&year, &schedule), &settings)).collect()
     })
 }
 
@@ -198,7 +213,7 @@ pub(crate) fn model(name: &str) -> PyResult<Model> {
 
 /// A grid's year.
 fn reading(
-    (place, group, diagnostics): (AnnualGrid, Group, &[(String, String)]),
+    (place, groups, diagnostics): (AnnualGrid, Vec<Group>, &[(String, String)]),
     (year, schedule): (&Year, &Schedule),
     settings: &Settings,
 ) -> Result<AnnualReading, Error> {
@@ -207,6 +222,6 @@ fn reading(
         series.take(chunk);
         true
     };
-    let grid = evaluate(year, schedule, &[group], settings, &mut take).map_err(told)?.ok_or(Error::Cancelled)?;
+    let grid = evaluate(year, schedule, &groups, settings, &mut take).map_err(told)?.ok_or(Error::Cancelled)?;
     Ok(AnnualReading { place, grid, series, diagnostics: diagnostics.to_vec() })
 }

@@ -105,7 +105,7 @@ pub(crate) fn annual_glare(
     };
     let eyes: Vec<Eye> = eyes.into_iter().enumerate().map(named).collect();
     let task =
-        AnnualTask { year: &year, frame: Frame { up_axis: up_axis(up)?, north_deg: north }, factor: division, blinds: None, closed: None };
+        AnnualTask { year: &year, frame: Frame { up_axis: up_axis(up)?, north_deg: north }, factor: division, facades: &[], closed: &[] };
     let ask = |py: Python<'_>, _: Option<&gonio::render::Progress>| unless(py, cancelled.as_ref());
     watched(py, ask, |stop, progress| {
         if eyes.is_empty() {

@@ -11,6 +11,7 @@ mod daylight;
 mod description;
 mod dim;
 mod error;
+mod facades;
 mod field;
 mod film;
 mod glare;

@@ -54,7 +54,7 @@ pub(crate) fn annual_glare(py: Python<'_>, options: &AnnualGlareOptions, interru
         if let Some(folder) = &options.year.output {
             check_targets(paths(folder, eyes.len()).iter())?;
         }
-        let task = AnnualTask { year: &year, frame, factor: options.factor, blinds: None, closed: None };
+        let task = AnnualTask { year: &year, frame, factor: options.factor, facades: &[], closed: &[] };
         let follow = |watch: &mut gonio::measure::Watch<'_>| trace_eyes(&loaded.scene, &eyes, &task, Execution::detect(), watch);
         let traced = watched(Reporter::new(options.quiet), None, interrupted, follow)?;
         tell(&traced.diagnostics);

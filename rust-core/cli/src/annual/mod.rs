@@ -1,5 +1,6 @@
 //! `gonio annual` and `gonio annual-metrics`: a year of daylight.
 
+mod facades;
 pub(super) mod glare;
 mod inputs;
 mod pictures;

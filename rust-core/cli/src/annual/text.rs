@@ -41,6 +41,13 @@ pub(super) fn lines(name: &str, grid: &Grid, chosen: &[Metric]) -> Vec<String> {
     std::iter::once(head).chain(told.map(|(_, line)| line).chain(electric).map(indented)).collect()
 }
 
+/// How long the blinds of groups of windows are closed, where there are any.
+pub(super) fn closed(facades: &[&str], grid: &Grid) -> Option<String> {
+    let told = |(name, hours): (&&str, &f64)| format!("{name}{}{hours:.0}", if name.is_empty() { "" } else { " " });
+    let told: Vec<String> = facades.iter().zip(&grid.closed_hours).map(told).collect();
+    (!told.is_empty()).then(|| indented(format!("blinds closed, used hours: {}", told.join(", "))))
+}
+
 fn indented(line: String) -> String {
     format!("  {line}")
 }

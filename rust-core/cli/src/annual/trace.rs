@@ -2,11 +2,13 @@
 
 use super::{
     as_json, calculate,
+    facades::facades,
     inputs::{self, Inputs, Named},
     pictures, series, settings, tell_doubts, text, whole,
 };
 use crate::{
-    arguments::AnnualOptions,
+    arguments::{AnnualOptions, RoundArguments},
+    checkpoint::{every, part_of},
     file::{check_targets, print_path},
     measure::{apply_settings, author_grids, watched},
     messages::{diagnostics_json, print, tell},
@@ -16,11 +18,11 @@ use crate::{
 };
 use gonio::{
     Diagnostic, Result,
-    annual::{AnnualGrid, AnnualTask, trace},
+    annual::{AnnualGrid, AnnualTask, Checkpoints, trace},
+    measure::Watch,
     scene::{Integrator, Scene},
     sky::Frame,
 };
-use gonio_annual::Group;
 use gonio_simd::Execution;
 use gonio_usd::{Loaded, SampleTime, daylight::up_axis};
 use pyo3::prelude::*;
@@ -31,10 +33,9 @@ use std::sync::atomic::AtomicBool;
 pub(crate) fn annual(py: Python<'_>, options: &AnnualOptions, interrupted: &'static AtomicBool) -> Result<i32> {
     let (year, schedule) = inputs::year(&options.year)?;
     tell_doubts(&options.year, &year);
-    let blinds = inputs::share(options.blinds)?;
+    let (facades, states) = facades(&options.facades, &year)?;
     let loaded = load(py, options, &[], interrupted)?;
-    let closed =
-        if options.closed_variant.is_empty() { None } else { Some(load(py, options, &options.closed_variant, interrupted)?.scene) };
+    let closed = states.iter().map(|state| Ok(load(py, options, state, interrupted)?.scene)).collect::<Result<Vec<Scene>>>()?;
     let frame = Frame { up_axis: up_axis(loaded.info.up_axis), north_deg: options.year.north };
     py.detach(|| {
         let tell = |diagnostics: &[Diagnostic]| tell(&options.stage, options.quiet, diagnostics);
@@ -45,24 +46,29 @@ pub(crate) fn annual(py: Python<'_>, options: &AnnualOptions, interrupted: &'sta
             let files = |grid: &AnnualGrid| series::paths(folder, &grid.name).into_iter().chain(pictures::paths(folder, &grid.name));
             check_targets(grids.iter().flat_map(files).collect::<Vec<_>>().iter())?;
         }
-        let task = AnnualTask { year: &year, frame, factor: options.factor, blinds, closed: closed.as_ref() };
-        let (groups, diagnostics) = traced(&loaded.scene, &grids, &task, Reporter::new(options.quiet), interrupted)?;
+        let task = AnnualTask { year: &year, frame, factor: options.factor, facades: &facades, closed: &closed };
+        let checkpoints = checkpoints(&options.rounds)?;
+        let follow = |watch: &mut Watch<'_>| trace(&loaded.scene, &grids, (&task, &checkpoints), Execution::detect(), watch);
+        let (groups, diagnostics) = watched(Reporter::new(options.quiet), None, interrupted, follow)?;
         tell(&diagnostics);
-        let named = |(grid, group): (&AnnualGrid, _)| Named { name: grid.name.clone(), groups: vec![group] };
+        let Some(groups) = groups else { return Ok(0) };
+        let named = |(grid, groups): (&AnnualGrid, _)| Named { name: grid.name.clone(), groups };
         let named = grids.iter().zip(groups).map(named).collect();
         let told: Vec<Diagnostic> = loaded.diagnostics.iter().chain(&left_out).chain(&diagnostics).cloned().collect();
-        finish(options, &Inputs { year: year.clone(), schedule, grids: named }, (&grids, &told), interrupted)
+        let names: Vec<&str> = facades.iter().map(|facade| facade.name.as_str()).collect();
+        finish((options, &names), &Inputs { year: year.clone(), schedule, grids: named }, (&grids, &told), interrupted)
     })
 }
 
-fn traced(
-    scene: &Scene,
-    grids: &[AnnualGrid],
-    task: &AnnualTask<'_>,
-    reporter: Reporter,
-    interrupted: &AtomicBool,
-) -> Result<(Vec<Group>, Vec<Diagnostic>)> {
-    watched(reporter, None, interrupted, |watch| trace(scene, grids, task, Execution::detect(), watch))
+/// Where rounds are kept.
+fn checkpoints(options: &RoundArguments) -> Result<Checkpoints> {
+    Ok(Checkpoints {
+        path: options.checkpoint.clone(),
+        every: every(options.checkpoint_every)?,
+        resume: options.resume,
+        part: options.part.as_deref().map(part_of).transpose()?,
+        merge: options.merge.clone(),
+    })
 }
 
 /// The stage with some more variants chosen.
@@ -83,7 +89,7 @@ fn load(py: Python<'_>, options: &AnnualOptions, more: &[String], interrupted: &
 
 /// Calculates every grid, tells and writes.
 fn finish(
-    options: &AnnualOptions,
+    (options, facades): (&AnnualOptions, &[&str]),
     inputs: &Inputs,
     (grids, told): (&[AnnualGrid], &[Diagnostic]),
     interrupted: &AtomicBool,
@@ -97,9 +103,14 @@ fn finish(
             written.iter().filter(|_| !options.year.json).for_each(|path| print_path(path));
         }
         if !options.year.json {
-            text::lines(&named.name, &grid, &options.metrics).iter().for_each(|line| print(line));
+            let closed = text::closed(facades, &grid);
+            text::lines(&named.name, &grid, &options.metrics).iter().chain(&closed).for_each(|line| print(line));
         }
-        found.push(placed(as_json(named, &grid), traced));
+        let mut json = placed(as_json(named, &grid), traced);
+        if !options.facades.group.is_empty() {
+            json["groups"] = json!(facades);
+        }
+        found.push(json);
     }
     if options.year.json {
         let mut whole = whole(&options.year, &inputs.year, found);

@@ -1,5 +1,6 @@
 //! What `gonio annual` and `gonio annual-metrics` take.
 
+use super::checkpoint::RoundArguments;
 use super::measure::GridArguments;
 use super::number::{count, finite, mebibytes};
 use super::stage::StageArguments;
@@ -13,7 +14,9 @@ pub(super) const ANNUAL_EXAMPLES: &str = "Examples:
   gonio annual office.usda --weather mannheim.epw --grid /Office/Floor --height 0.8 --margin 0.5
   gonio annual office.usda --weather mannheim.epw --grid /Office/Floor --height 0.8 --blinds 0.05 -o out
   gonio annual office.usda --weather mannheim.epw --grid /Office/Floor --closed-variant '/Office{blinds=closed}' --json
+  gonio annual office.usda --weather oslo.epw --grid /Office/Floor --group south=/Office/South --group west=/Office/West --blinds 0.05
   gonio annual office.usda --weather oslo.epw --grid /Office/Floor --schedule 7-19 --metrics sda,ase
+  gonio annual office.usda --weather oslo.epw --grid /Office/Floor --checkpoint office.rounds --resume
   gonio annual office.usda --weather oslo.epw --grid /Office/Floor --lighting-power 7 --lighting-target 500
 
 The stage's lamps are dark and its sky and sun give way to the weather's. docs/annual.md takes you from a weather file to sDA in five minutes.";
@@ -132,6 +135,27 @@ pub(crate) enum MetricArgument {
     En17037,
 }
 
+/// Windows with blinds, or with glass that is switched.
+#[derive(Args, Clone, Debug)]
+#[command(next_help_heading = "Blinds")]
+pub(crate) struct FacadeArguments {
+    /// Windows whose blinds are operated together: a name and the prim through which their light comes, with all below it. May be given several times; the
+    /// same name twice has both prims. One trace tells the light of all groups apart, by the first that it goes through, seen from the point.
+    #[arg(long, value_name = "NAME=PRIM")]
+    pub(crate) group: Vec<String>,
+    /// Share of light that closed blinds let through, of all groups or of one. They close while more than 2 % of a grid's points have 1000 lx of direct sun
+    /// (LM-83-12); of several groups those that leave most light.
+    #[arg(long, value_name = "SHARE|NAME=SHARE")]
+    pub(crate) blinds: Vec<String>,
+    /// The stage's variant with closed blinds, '/Prim{set=variant}', of all groups or of one, 'NAME=/Prim{set=variant}': traced too, as many times as groups
+    /// have other ones. May be given several times.
+    #[arg(long, value_name = "SELECTION|NAME=SELECTION")]
+    pub(crate) closed_variant: Vec<String>,
+    /// When blinds are closed, in place of direct sun closing them: hours of every day, or a file of a 0 or 1 for each hour of the year; of all groups or of one.
+    #[arg(long, value_name = "FROM-TO|FILE|NAME=…")]
+    pub(crate) closed_hours: Vec<String>,
+}
+
 #[derive(Args, Debug)]
 pub(crate) struct AnnualOptions {
     #[command(flatten)]
@@ -145,12 +169,8 @@ pub(crate) struct AnnualOptions {
     /// The figures that lines tell, separated by commas; --json and -o have all of them.
     #[arg(long, value_enum, value_name = "NAMES", value_delimiter = ',')]
     pub(crate) metrics: Vec<MetricArgument>,
-    /// Share of light that closed blinds let through; they close while more than 2 % of a grid's points have 1000 lx of direct sun (LM-83-12).
-    #[arg(long, value_name = "SHARE", conflicts_with = "closed_variant", value_parser = finite::<f64>)]
-    pub(crate) blinds: Option<f64>,
-    /// The stage's variant with closed blinds, '/Prim{set=variant}', which is traced too; may be given several times.
-    #[arg(long, value_name = "SELECTION")]
-    pub(crate) closed_variant: Vec<String>,
+    #[command(flatten)]
+    pub(crate) facades: FacadeArguments,
     /// Reinhart's division of the sky, 1 (Tregenza's 145 patches) to 6. The sun's direct light comes from its place at any.
     #[arg(long, short = 'm', value_name = "FACTOR", default_value_t = 2, value_parser = count::<u32>(1..=6))]
     pub(crate) factor: u32,
@@ -164,6 +184,8 @@ pub(crate) struct AnnualOptions {
     pub(crate) work: WorkArguments,
     #[command(flatten)]
     pub(crate) textures: TextureArguments,
+    #[command(flatten)]
+    pub(crate) rounds: RoundArguments,
     /// Write nothing but answers and errors.
     #[arg(long, short = 'q')]
     pub(crate) quiet: bool,

@@ -34,12 +34,12 @@ mod view_out;
 mod work;
 
 pub(super) use annual::{
-    AnnualGlareOptions, AnnualMetricsOptions, AnnualOptions, ControlArgument, LightingArguments, MetricArgument, SensorArgument,
-    YearArguments,
+    AnnualGlareOptions, AnnualMetricsOptions, AnnualOptions, ControlArgument, FacadeArguments, LightingArguments, MetricArgument,
+    SensorArgument, YearArguments,
 };
 pub(super) use bench::BenchOptions;
 pub(super) use bsdf::{BsdfOptions, SampleArguments};
-pub(super) use checkpoint::{CheckpointArguments, MergeArguments};
+pub(super) use checkpoint::{CheckpointArguments, MergeArguments, RoundArguments};
 pub(super) use client_page::ShareOptions;
 pub(super) use completion::{CompletionOptions, ShellArgument};
 pub(super) use daylight::DaylightArguments;

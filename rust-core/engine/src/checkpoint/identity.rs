@@ -1,37 +1,21 @@
-//! What a checkpoint is of: program, SIMD level, scene and settings. Others would give other bits.
+//! What a checkpoint of a render is of.
 
+use super::Stamp;
 use crate::{
     compile::{picture_view, window},
-    error::{Error, Result},
     film::{Besides, PictureView},
-    scene::{Digest, Manifests, Scene, Settings, TextureSource, digest_scene, open_file},
-    texture::{find_tiles, is_udim},
+    scene::{Manifests, Scene},
 };
 use gonio_simd::Execution;
 use serde::{Deserialize, Serialize};
-use std::{
-    io::{BufReader, Read},
-    path::{Path, PathBuf},
-    sync::Arc,
-};
-
-/// This program.
-const PROGRAM: &str = concat!("gonio ", env!("CARGO_PKG_VERSION"));
-
-/// Settings that do not change a sample.
-const HARMLESS: [&str; 4] = ["threads", "time_limit_s", "texture_memory", "texture_cache"];
+use std::sync::Arc;
 
 /// What a checkpoint is of.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Identity {
-    /// Name and version of the program.
-    program: String,
-    /// The SIMD level.
-    level: String,
-    /// Digest of the scene and its images.
-    scene: u64,
-    /// The settings.
-    pub settings: Settings,
+    /// Of which scene and settings.
+    #[serde(flatten)]
+    pub stamp: Stamp,
     /// Factor on the colour pass.
     pub exposure: f32,
     /// What its film keeps besides passes.
@@ -50,47 +34,14 @@ pub struct Identity {
 impl Identity {
     /// The identity of a render of a scene, all files of which are read again. `notes` are for the header of EXR files.
     pub fn new(scene: &Scene, execution: Execution, notes: Vec<(String, String)>) -> Self {
-        let settings = scene.settings.clone();
         Self {
-            program: PROGRAM.to_owned(),
-            level: execution.name().to_owned(),
-            scene: digest(scene),
-            exposure: scene.cameras.get(settings.camera as usize).map_or(1.0, |camera| camera.exposure.0),
+            stamp: Stamp::new(scene, execution),
+            exposure: scene.cameras.get(scene.settings.camera as usize).map_or(1.0, |camera| camera.exposure.0),
             besides: Besides::of(scene),
             manifests: Arc::new(Manifests::of(scene)),
             view: view_of(scene),
-            settings,
             notes,
         }
-    }
-
-    /// Refuses the checkpoint in `path`, which is of `other`, for a render of this.
-    pub(super) fn check(&self, other: &Self, path: &Path, harmless: &[&str]) -> Result<()> {
-        let problem = if other.program != self.program {
-            format!("it was written by {}, this is {}", other.program, self.program)
-        } else if other.level != self.level {
-            format!("it was rendered at the SIMD level {0}, this is {1}; GONIO_SIMD={0} renders its bits", other.level, self.level)
-        } else if let Some(difference) = self.different_setting(&other.settings, harmless) {
-            difference
-        } else if other.scene != self.scene {
-            "it is of another scene".to_owned()
-        } else {
-            return Ok(());
-        };
-        Err(Error::Format { path: path.to_owned(), line: None, problem: format!("this checkpoint cannot be used: {problem}") })
-    }
-
-    /// The first setting that another render has otherwise.
-    fn different_setting(&self, other: &Settings, harmless: &[&str]) -> Option<String> {
-        let object =
-            |settings: &Settings| serde_json::to_value(settings).ok().and_then(|value| value.as_object().cloned()).unwrap_or_default();
-        let (wanted, found) = (object(&self.settings), object(other));
-        let different = |(name, _): &(&String, &serde_json::Value)| {
-            found.get(*name) != wanted.get(*name) && ![&HARMLESS, harmless].concat().contains(&name.as_str())
-        };
-        let (name, value) = wanted.iter().find(different)?;
-        let other = found.get(name).map_or_else(|| "absent".to_owned(), ToString::to_string);
-        Some(format!("its {} is {other}, {value} was asked for", name.replace('_', " ")))
     }
 }
 
@@ -98,32 +49,4 @@ impl Identity {
 fn view_of(scene: &Scene) -> Option<PictureView> {
     let camera = scene.cameras.get(scene.settings.camera as usize)?;
     picture_view(camera, &scene.settings, window(&scene.settings).ok()?)
-}
-
-/// A number that tells scenes apart, with the bytes of their image files.
-fn digest(scene: &Scene) -> u64 {
-    let mut digest = digest_scene(scene);
-    for texture in &scene.textures {
-        if let TextureSource::File(path) = &texture.source {
-            files(path).iter().for_each(|path| add_file(&mut digest, path));
-        }
-    }
-    digest.value()
-}
-
-/// The files of an image: one, or the tiles of a set.
-fn files(path: &Path) -> Vec<PathBuf> {
-    let text = path.to_string_lossy();
-    if is_udim(&text) { find_tiles(&text).into_iter().map(|(_, path)| path).collect() } else { vec![path.to_owned()] }
-}
-
-/// Adds a file's bytes; one that cannot be read adds what could be, as the picture is made without it.
-fn add_file(digest: &mut Digest, path: &Path) {
-    let Ok(mut file) = open_file(path).map(BufReader::new) else { return };
-    let mut bytes = vec![0; 1 << 16];
-    while let Ok(count) = file.read(&mut bytes)
-        && count > 0
-    {
-        digest.add(&bytes[..count]);
-    }
 }

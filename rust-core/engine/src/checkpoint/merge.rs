@@ -15,8 +15,8 @@ use std::{
 /// From the first sample on, the sums are those of one render to the bit. Two films are in memory at a time, those so far and one part's.
 pub fn merge(parts: &[PathBuf]) -> Result<Checkpoint> {
     let mut all = parts.iter().map(|path| Ok((path.as_path(), Checkpoint::read_identity(path)?))).collect::<Result<Vec<_>>>()?;
-    let first_tile = |identity: &Identity| identity.settings.tile_range.map_or(0, |[first, _]| first);
-    all.sort_by_key(|(_, identity)| (first_tile(identity), identity.settings.range().start));
+    let first_tile = |identity: &Identity| identity.stamp.settings.tile_range.map_or(0, |[first, _]| first);
+    all.sort_by_key(|(_, identity)| (first_tile(identity), identity.stamp.settings.range().start));
     let mut whole: Option<Checkpoint> = None;
     for run in all.chunk_by(|(_, a), (_, b)| first_tile(a) == first_tile(b)) {
         let run: Vec<&Path> = run.iter().map(|(path, _)| *path).collect();
@@ -28,7 +28,7 @@ pub fn merge(parts: &[PathBuf]) -> Result<Checkpoint> {
     }
     let mut whole = whole.ok_or_else(|| Error::setting("parts", "none were given"))?;
     check_all_tiles(&whole.film)?;
-    whole.identity.settings.tile_range = None;
+    whole.identity.stamp.settings.tile_range = None;
     Ok(whole)
 }
 
@@ -37,18 +37,18 @@ fn join_samples(parts: &[&Path]) -> Result<Checkpoint> {
     let mut whole = complete(parts[0])?;
     for path in &parts[1..] {
         let part = complete(path)?;
-        whole.identity.check(&part.identity, path, &["sample_range"])?;
+        whole.identity.stamp.check(&part.identity.stamp, path, &["sample_range"])?;
         check_follows("samples", &whole.film.range(), &part.film.range(), path)?;
         whole.film.join_samples(part.film);
     }
     let range = whole.film.range();
-    whole.identity.settings.sample_range = Some([range.start, range.end]);
+    whole.identity.stamp.settings.sample_range = Some([range.start, range.end]);
     Ok(whole)
 }
 
 /// Adds the tiles of `part`, whose first file is `path`.
 fn join_tiles(whole: &mut Checkpoint, part: Checkpoint, path: &Path) -> Result<()> {
-    whole.identity.check(&part.identity, path, &["tile_range", "sample_range"])?;
+    whole.identity.stamp.check(&part.identity.stamp, path, &["tile_range", "sample_range"])?;
     let (before, after) = (whole.film.range(), part.film.range());
     if before != after {
         let problem = format!("samples {before:?} of the tiles before and {after:?} of these were found, expected the same");

@@ -25,7 +25,9 @@ mod watch;
 #[cfg(test)]
 mod tests;
 
-pub use coefficients::{DaylightCoefficients, ROUNDS, SkyTask, daylight_coefficients, sun_coefficients};
+pub use coefficients::{
+    DaylightCoefficients, Keeping, Kept, ROUNDS, Round, SkyTask, daylight_coefficients, is_of, sun_coefficients, trace_rounds,
+};
 pub use csv::csv;
 pub use picture::value_picture;
 pub use points::{GridPoints, MOST_POINTS};

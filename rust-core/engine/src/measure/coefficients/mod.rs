@@ -4,8 +4,14 @@
 //! nothing scatters comes by shadow rays instead, spread evenly over each patch. Rounds have seeds of their own: they are independent estimates, of whose
 //! products with skies standard errors are made.
 
+mod kept;
+mod openings;
 mod rounds;
 mod straight;
+mod work;
+
+pub use kept::{Keeping, Kept, Round};
+pub use openings::is_of;
 
 use super::{
     sense::{Probe, placed},
@@ -13,27 +19,17 @@ use super::{
     watch::Watch,
 };
 use crate::{
-    compile::{CompiledScene, compile, light_paths_measure},
+    compile::{CompiledScene, compile, light_paths_measure, transport},
     error::{Diagnostic, Error, Result},
-    render::Progress,
     scene::{Emission, Light, LightShape, Measurand, Meter, Origin, Scene, Settings, Transform},
-    threads::{panic_message, start, workers},
-    transport::{Sensor, Workspace},
+    transport::{Openings, Sensor, Transport},
 };
 use gonio_simd::Execution;
-use std::{
-    any::Any,
-    sync::{
-        Arc,
-        atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering},
-    },
-    time::{Duration, Instant},
-};
+use std::sync::Arc;
+use work::Work;
 
 /// Independent estimates.
 pub const ROUNDS: usize = 16;
-/// How often progress is told.
-const TELL_EVERY: Duration = Duration::from_millis(50);
 
 /// How the sky is divided, and where suns stand. Directions are unit vectors in the scene.
 #[derive(Clone, Copy)]
@@ -52,9 +48,19 @@ pub struct SkyTask<'a> {
     pub sun_angle: f64,
     /// The zenith: what is below the horizon shines on nothing.
     pub up: [f64; 3],
+    /// Groups of prims, with all below them. Light is told apart by the group of the first that it goes through, seen from the point; that which goes
+    /// through none comes first. Without groups it is all together.
+    pub openings: &'a [Vec<String>],
 }
 
-/// What light each patch and each sun brings: lx for 1 cd/m².
+impl SkyTask<'_> {
+    /// Parts that light is told apart in.
+    pub fn parts(&self) -> usize {
+        if self.openings.is_empty() { 1 } else { self.openings.len() + 1 }
+    }
+}
+
+/// What light each patch and each sun brings: lx for 1 cd/m². Points are rows; where openings tell light apart, all points for each part, one after the other.
 #[derive(Clone, Debug, Default)]
 pub struct DaylightCoefficients {
     /// All light, by round: points × patches.
@@ -93,27 +99,37 @@ pub fn daylight_coefficients(
     execution: Execution,
     watch: &mut Watch<'_>,
 ) -> Result<DaylightCoefficients> {
+    let mut kept = Kept::default();
+    let diagnostics = trace_rounds(scene, points, task, execution, watch, &mut Keeping::of_all(&mut kept))?;
+    Ok(DaylightCoefficients { diagnostics, ..DaylightCoefficients::from(kept) })
+}
+
+/// Traces what is asked for and not there yet, and tells what differs from what was asked for; see [`daylight_coefficients`].
+///
+/// # Errors
+/// The same.
+pub fn trace_rounds(
+    scene: &Scene,
+    points: &[Meter],
+    task: &SkyTask<'_>,
+    execution: Execution,
+    watch: &mut Watch<'_>,
+    keeping: &mut Keeping<'_>,
+) -> Result<Vec<Diagnostic>> {
     if let Some(other) = points.iter().find(|point| point.measurand != Measurand::Illuminance) {
         let problem = format!("daylight coefficients are of illuminances, {} was asked for", other.measurand.name());
         return Err(Error::scene(&other.origin, problem));
     }
-    let laid = Laid::out(scene, points, watch)?;
-    let (settings, mut diagnostics) = (laid.settings, laid.compiled.diagnostics.clone());
+    let laid = Laid::out(scene, points, task.openings, watch)?;
+    let mut diagnostics = laid.compiled.diagnostics.clone();
     if let (true, Some(first)) = (light_paths_measure::bends_light(&laid.compiled), points.first()) {
         diagnostics.push(Diagnostic::warning(&first.origin, BY_PATCHES));
     }
-    let tracing = Tracing { scene: &laid.compiled, sensors: &laid.sensors, settings: &settings, execution, task };
+    let tracing = laid.tracing(task, execution);
     let work = Work::new();
-    let total = rounds::batches(&tracing) + straight::batches(&tracing);
-    let found = work.watched(total, tracing.settings.samples, watch, || {
-        let [mut all, scattered] = rounds::trace(&tracing, &work)?;
-        for (all, straight) in all.iter_mut().zip(straight::patches(&tracing, &work)?) {
-            all.iter_mut().zip(straight).for_each(|(all, straight)| *all += straight);
-        }
-        Ok((all, scattered, straight::suns(&tracing, &work)?))
-    });
-    let (all, scattered, suns) = found?;
-    Ok(DaylightCoefficients { all, scattered, suns, diagnostics })
+    let total = keeping.batches(&tracing);
+    work.watched(total, tracing.settings.samples, watch, || keeping.trace(&tracing, &work))?;
+    Ok(diagnostics)
 }
 
 /// What comes straight from the discs of suns alone, seen under an angle in radians, `up` being the zenith: points × suns, lx for 1 cd/m²; and what differs
@@ -128,11 +144,11 @@ pub fn sun_coefficients(
     execution: Execution,
     watch: &mut Watch<'_>,
 ) -> Result<(Vec<f32>, Vec<Diagnostic>)> {
-    let laid = Laid::out(scene, points, watch)?;
-    let task = SkyTask { patches: 0, patch_of: &|_| 0, place: &|_, _| None, solid_angle: &|_| 0.0, suns, sun_angle, up };
-    let tracing = Tracing { scene: &laid.compiled, sensors: &laid.sensors, settings: &laid.settings, execution, task: &task };
+    let laid = Laid::out(scene, points, &[], watch)?;
+    let task = SkyTask { patches: 0, patch_of: &|_| 0, place: &|_, _| None, solid_angle: &|_| 0.0, suns, sun_angle, up, openings: &[] };
+    let tracing = laid.tracing(&task, execution);
     let work = Work::new();
-    let found = work.watched(straight::batches(&tracing), 1, watch, || straight::suns(&tracing, &work))?;
+    let found = work.watched(straight::batches_of_suns(&tracing), 1, watch, || straight::suns(&tracing, &work))?;
     let mut diagnostics = laid.compiled.diagnostics.clone();
     if let (true, Some(first)) = (light_paths_measure::bends_light(&laid.compiled), points.first()) {
         diagnostics.push(Diagnostic::warning(&first.origin, HIDDEN));
@@ -145,15 +161,22 @@ struct Laid {
     compiled: Arc<CompiledScene>,
     sensors: Vec<Sensor>,
     settings: Settings,
+    openings: Option<Arc<Openings>>,
 }
 
 impl Laid {
-    fn out(scene: &Scene, points: &[Meter], watch: &Watch<'_>) -> Result<Self> {
+    fn out(scene: &Scene, points: &[Meter], groups: &[Vec<String>], watch: &Watch<'_>) -> Result<Self> {
         let probes = points.iter().map(Probe::new).collect::<Result<Vec<_>>>()?;
         let scene = under_even_sky(scene);
         let compiled = Arc::new(compile(&scene, watch.previous, watch.cancel)?);
         let (sensors, _) = placed(&compiled, &probes);
-        Ok(Self { compiled, sensors, settings: unlimited(&scene.settings) })
+        let openings = openings::openings(&scene, &compiled, groups);
+        Ok(Self { compiled, sensors, settings: unlimited(&scene.settings), openings })
+    }
+
+    fn tracing<'a>(&'a self, task: &'a SkyTask<'a>, execution: Execution) -> Tracing<'a> {
+        let Self { compiled: scene, sensors, settings, openings } = self;
+        Tracing { scene, sensors, settings, execution, task, openings: openings.as_ref() }
     }
 }
 
@@ -173,67 +196,19 @@ struct Tracing<'a> {
     settings: &'a Settings,
     execution: Execution,
     task: &'a SkyTask<'a>,
+    openings: Option<&'a Arc<Openings>>,
 }
 
-/// How far workers are, and whether they are to stop.
-struct Work {
-    done: AtomicU64,
-    rays: AtomicU64,
-    cancel: AtomicBool,
-}
-
-impl Work {
-    fn new() -> Self {
-        Self { done: AtomicU64::new(0), rays: AtomicU64::new(0), cancel: AtomicBool::new(false) }
+impl Tracing<'_> {
+    /// How light is followed: with the openings that it comes through, and with no expressions, which would be noted in their place.
+    fn transport(&self) -> Transport {
+        let mut transport = transport(self.scene, self.settings, self.execution, [0.0; 3], [0.0; 3]);
+        (transport.passes.openings, transport.passes.expressions) = (self.openings.cloned(), None);
+        transport
     }
 
-    /// Does so many pieces of work on threads of their own, each with a workspace, in any order.
-    fn share_out(&self, tracing: &Tracing<'_>, pieces: usize, piece: impl Fn(usize, &mut Workspace) + Sync) -> Result<()> {
-        let next = AtomicUsize::new(0);
-        let run = || {
-            let mut workspace = tracing.scene.workspaces.take();
-            while let Some(number) = Some(next.fetch_add(1, Ordering::Relaxed)).filter(|number| *number < pieces && !self.is_cancelled()) {
-                piece(number, &mut workspace);
-            }
-            workspace.deposits.sky = None;
-            if !self.is_cancelled() {
-                tracing.scene.workspaces.leave(workspace);
-            }
-        };
-        std::thread::scope(|scope| {
-            let helpers: Vec<_> = (1..workers(tracing.settings.threads)).map_while(|_| start(scope, run)).collect();
-            run();
-            helpers.into_iter().try_for_each(|helper| helper.join().map_err(failed))
-        })?;
-        if self.is_cancelled() { Err(Error::Cancelled) } else { Ok(()) }
+    /// Rows: all points for each part that light is told apart in.
+    fn rows(&self) -> usize {
+        self.task.parts() * self.sensors.len()
     }
-
-    fn is_cancelled(&self) -> bool {
-        self.cancel.load(Ordering::Relaxed)
-    }
-
-    /// Does something on other threads while this one tells how far it is.
-    fn watched<T: Send>(&self, total: u64, samples: u32, watch: &mut Watch<'_>, work: impl FnOnce() -> Result<T> + Send) -> Result<T> {
-        let start = Instant::now();
-        std::thread::scope(|scope| {
-            let working = scope.spawn(work);
-            while !working.is_finished() {
-                std::thread::sleep(TELL_EVERY.min(start.elapsed() / 4 + Duration::from_millis(1)));
-                let fraction = self.done.load(Ordering::Relaxed) as f64 / total.max(1) as f64;
-                let elapsed = start.elapsed();
-                let remaining = (fraction > 0.0).then(|| elapsed.mul_f64((1.0 - fraction).max(0.0) / fraction));
-                let done = (fraction * f64::from(samples)) as u32;
-                let rays = self.rays.load(Ordering::Relaxed);
-                let progress = Progress { fraction, samples: done, samples_total: samples, elapsed, remaining, rays };
-                if watch.cancel.load(Ordering::Relaxed) || !(watch.progress)(&progress) {
-                    self.cancel.store(true, Ordering::Relaxed);
-                }
-            }
-            working.join().unwrap_or_else(|panic| Err(failed(panic)))
-        })
-    }
-}
-
-fn failed(panic: Box<dyn Any + Send>) -> Error {
-    Error::Internal(panic_message(&*panic))
 }

@@ -3,7 +3,6 @@
 use super::{ROUNDS, Tracing, Work};
 use crate::{
     camera::sampler::{BATCH, Runs, TILE, tile_place},
-    compile::transport,
     error::Result,
     measure::sensing::seed_of_round,
     transport::{SensorTable, SkyArrivals, Start, Tracer, Workspace},
@@ -45,23 +44,23 @@ impl Layout {
     }
 }
 
-/// Batches in all.
-pub(super) fn batches(tracing: &Tracing<'_>) -> u64 {
+/// Tiles of a round, and batches.
+pub(super) fn size(tracing: &Tracing<'_>) -> (usize, u64) {
     let layout = Layout::new(tracing);
-    ROUNDS as u64 * layout.tiles as u64 * u64::from(layout.samples)
+    (layout.tiles, layout.tiles as u64 * u64::from(layout.samples))
 }
 
-/// All light and the scattered part of it, by round: points × patches.
-pub(super) fn trace(tracing: &Tracing<'_>, work: &Work) -> Result<[Vec<Vec<f32>>; 2]> {
+/// All light and the scattered part of it in some rounds, one after the other: points × patches.
+pub(super) fn trace(tracing: &Tracing<'_>, work: &Work, rounds: &[usize]) -> Result<[Vec<Vec<f32>>; 2]> {
     let layout = Layout::new(tracing);
-    let (points, patches) = (tracing.sensors.len(), tracing.task.patches);
-    let empty = || (0..ROUNDS).map(|_| Mutex::new(vec![0.0; points * patches])).collect::<Vec<_>>();
+    let points = tracing.sensors.len();
+    let empty = || rounds.iter().map(|_| Mutex::new(vec![0.0; tracing.rows() * tracing.task.patches])).collect::<Vec<_>>();
     let sums = [empty(), empty()];
     let rows: Vec<Vec<u32>> = (0..layout.tiles).map(|tile| layout.rows(tile, points)).collect();
     // Rounds and tiles are whole works of one worker each, so that sums do not hang on how many workers there are.
-    work.share_out(tracing, ROUNDS * layout.tiles, |number, workspace| {
-        let (round, tile) = (number / layout.tiles, number % layout.tiles);
-        trace_tile(tracing, work, &layout, (round, tile), &rows[tile], [&sums[0][round], &sums[1][round]], workspace);
+    work.share_out(tracing, rounds.len() * layout.tiles, |number, workspace| {
+        let (place, tile) = (number / layout.tiles, number % layout.tiles);
+        trace_tile(tracing, work, &layout, (rounds[place], tile), &rows[tile], [&sums[0][place], &sums[1][place]], workspace);
     })?;
     Ok(sums.map(|sums| sums.into_iter().map(|sum| sum.into_inner().unwrap_or_else(PoisonError::into_inner)).collect()))
 }
@@ -76,7 +75,7 @@ fn trace_tile(
     sums: [&Mutex<Vec<f32>>; 2],
     workspace: &mut Workspace,
 ) {
-    let mut transport = transport(tracing.scene, tracing.settings, tracing.execution, [0.0; 3], [0.0; 3]);
+    let mut transport = tracing.transport();
     transport.passes.illuminance = false;
     transport.seed = seed_of_round(tracing.settings.seed, round as u32);
     transport.samples = layout.samples;
@@ -88,7 +87,8 @@ fn trace_tile(
     let first = rows.iter().copied().min().unwrap_or(0);
     let last = rows.iter().copied().filter(|row| *row != NOBODY).max().unwrap_or(first);
     let patches = tracing.task.patches;
-    let mut found = [0, 1].map(|_| vec![0.0_f64; (last - first + 1) as usize * patches]);
+    let count = (last - first + 1) as usize * patches;
+    let mut found = [0, 1].map(|_| vec![0.0_f64; tracing.task.parts() * count]);
     for sample in 0..layout.samples {
         let sky = workspace.deposits.sky.get_or_insert_default();
         sky.count = 0;
@@ -98,7 +98,7 @@ fn trace_tile(
             return;
         }
         if let Some(sky) = &workspace.deposits.sky {
-            add(sky, (rows, first), (tracing, layout), &mut found);
+            add(sky, (rows, first, count), (tracing, layout), &mut found);
         }
         work.done.fetch_add(1, Ordering::Relaxed);
         work.rays.fetch_add(workspace.statistics.rays + workspace.statistics.shadow_rays - before, Ordering::Relaxed);
@@ -106,14 +106,22 @@ fn trace_tile(
     let share = 1.0 / ((layout.table.side() * layout.table.side()) as f64 * f64::from(layout.samples));
     for (sum, found) in sums.into_iter().zip(found) {
         let mut sum = sum.lock().unwrap_or_else(PoisonError::into_inner);
-        let place = first as usize * patches;
-        sum[place..place + found.len()].iter_mut().zip(found).for_each(|(sum, found)| *sum = (found * share) as f32);
+        let of_part = tracing.sensors.len() * patches;
+        for (sum, found) in sum.chunks_exact_mut(of_part).zip(found.chunks_exact(count)) {
+            let place = first as usize * patches;
+            sum[place..place + count].iter_mut().zip(found).for_each(|(sum, found)| *sum = (found * share) as f32);
+        }
     }
 }
 
 /// Adds what arrived to the patches that it came from: what was scattered to both sums, and to that of all light what comes straight from patches
 /// without places.
-fn add(sky: &SkyArrivals, (rows, first): (&[u32], u32), (tracing, layout): (&Tracing<'_>, &Layout), [all, scattered]: &mut [Vec<f64>; 2]) {
+fn add(
+    sky: &SkyArrivals,
+    (rows, first, count): (&[u32], u32, usize),
+    (tracing, layout): (&Tracing<'_>, &Layout),
+    [all, scattered]: &mut [Vec<f64>; 2],
+) {
     let task = tracing.task;
     let [x, y, z] = &sky.direction;
     for entry in 0..sky.count {
@@ -121,7 +129,8 @@ fn add(sky: &SkyArrivals, (rows, first): (&[u32], u32), (tracing, layout): (&Tra
             continue;
         };
         let patch = (task.patch_of)([x[entry], y[entry], z[entry]]);
-        let (place, value) = ((row - first) as usize * task.patches + patch, f64::from(sky.value[entry]));
+        let place = sky.opening(entry) * count + (row - first) as usize * task.patches + patch;
+        let value = f64::from(sky.value[entry]);
         let is_direct = sky.is_direct(entry);
         if !is_direct {
             scattered[place] += value;

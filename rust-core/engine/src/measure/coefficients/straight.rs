@@ -3,7 +3,6 @@
 use super::{ROUNDS, Tracing, Work};
 use crate::{
     camera::sampler::{BATCH, hash},
-    compile::transport,
     error::Result,
     measure::vector::{across, add, cross, dot, scaled, unit},
     transport::{SensorTable, Start, Tracer, Workspace},
@@ -29,9 +28,14 @@ const _: () = assert!(ROUNDS == (SIDE * SIDE) as usize);
 /// A direction with the number of what shines from there.
 type Numbered = ([f32; 3], u32);
 
-/// Batches in all.
-pub(super) fn batches(tracing: &Tracing<'_>) -> u64 {
-    (ROUNDS * tracing.task.patches.div_ceil(TOGETHER) + tracing.task.suns.len().div_ceil(TOGETHER / PLACES)) as u64
+/// Batches of a round.
+pub(super) fn batches_of_a_round(tracing: &Tracing<'_>) -> u64 {
+    tracing.task.patches.div_ceil(TOGETHER) as u64
+}
+
+/// Batches of the suns.
+pub(super) fn batches_of_suns(tracing: &Tracing<'_>) -> u64 {
+    tracing.task.suns.len().div_ceil(TOGETHER / PLACES) as u64
 }
 
 /// What each sun brings: points × suns.
@@ -39,41 +43,40 @@ pub(super) fn suns(tracing: &Tracing<'_>, work: &Work) -> Result<Vec<f32>> {
     let all = tracing.task.suns.len();
     let disc = TAU * (1.0 - (0.5 * tracing.task.sun_angle).cos());
     let batch = |chosen: Range<usize>| chosen.flat_map(|sun| on_disc(tracing, sun)).collect();
-    let found = trace(tracing, work, (all, TOGETHER / PLACES, 1), |_, chosen| batch(chosen), |_| disc / PLACES as f64)?;
+    let found = trace(tracing, work, (all, TOGETHER / PLACES, &[0]), |_, chosen| batch(chosen), |_| disc / PLACES as f64)?;
     Ok(found.into_iter().next().unwrap_or_default())
 }
 
-/// What each patch brings without being scattered, by round: points × patches. The ground's, which has no places, is left out.
-pub(super) fn patches(tracing: &Tracing<'_>, work: &Work) -> Result<Vec<Vec<f32>>> {
+/// What each patch brings without being scattered in some rounds, one after the other: points × patches. The ground's, which has no places, is left out.
+pub(super) fn patches(tracing: &Tracing<'_>, work: &Work, rounds: &[usize]) -> Result<Vec<Vec<f32>>> {
     let task = tracing.task;
     let place = |round: usize, patch: usize| Some(((task.place)(patch, jittered(tracing.settings.seed, round, patch))?, patch as u32));
     let batch = |round: usize, chosen: Range<usize>| chosen.filter_map(|patch| place(round, patch)).collect();
-    trace(tracing, work, (task.patches, TOGETHER, ROUNDS), batch, |patch| (task.solid_angle)(patch))
+    trace(tracing, work, (task.patches, TOGETHER, rounds), batch, |patch| (task.solid_angle)(patch))
 }
 
 /// What numbered directions bring, by round: points × numbers. `batch` gives those of some numbers in a round, `weight` steradians of each.
 fn trace(
     tracing: &Tracing<'_>,
     work: &Work,
-    (numbers, together, rounds): (usize, usize, usize),
+    (numbers, together, rounds): (usize, usize, &[usize]),
     batch: impl Fn(usize, Range<usize>) -> Vec<Numbered> + Sync,
     weight: impl Fn(usize) -> f64 + Sync,
 ) -> Result<Vec<Vec<f32>>> {
     if numbers == 0 {
-        return Ok(vec![Vec::new(); rounds]);
+        return Ok(vec![Vec::new(); rounds.len()]);
     }
-    let found: Vec<Mutex<Vec<f32>>> = (0..rounds).map(|_| Mutex::new(vec![0.0; tracing.sensors.len() * numbers])).collect();
+    let found: Vec<Mutex<Vec<f32>>> = rounds.iter().map(|_| Mutex::new(vec![0.0; tracing.rows() * numbers])).collect();
     let table = SensorTable::new(tracing.sensors, 1);
-    let transport = transport(tracing.scene, tracing.settings, tracing.execution, [0.0; 3], [0.0; 3]);
-    let tracer = Tracer { tables: &tracing.scene.tables, start: Start::Sensors(&table), transport };
+    let tracer = Tracer { tables: &tracing.scene.tables, start: Start::Sensors(&table), transport: tracing.transport() };
     let of_round = numbers.div_ceil(together);
-    work.share_out(tracing, rounds * of_round, |piece, workspace| {
+    work.share_out(tracing, rounds.len() * of_round, |piece, workspace| {
         workspace.prepare(tracer.tables, &tracer.transport, false);
-        let (round, first) = (piece / of_round, piece % of_round * together);
+        let (place, first) = (piece / of_round, piece % of_round * together);
         let chosen = first..(first + together).min(numbers);
         let before = workspace.statistics.shadow_rays;
-        let sums = arrived(tracing, &tracer, (&batch(round, chosen.clone()), chosen.clone()), workspace);
-        let mut found = found[round].lock().unwrap_or_else(PoisonError::into_inner);
+        let sums = arrived(tracing, &tracer, (&batch(rounds[place], chosen.clone()), chosen.clone()), workspace);
+        let mut found = found[place].lock().unwrap_or_else(PoisonError::into_inner);
         for (row, sums) in found.chunks_exact_mut(numbers).zip(sums.chunks_exact(chosen.len())) {
             for (number, sum) in chosen.clone().zip(sums) {
                 row[number] = (sum * weight(number)) as f32;
@@ -93,13 +96,14 @@ fn arrived(
     workspace: &mut Workspace,
 ) -> Vec<f64> {
     let points = tracing.sensors.len();
-    let mut sums = vec![0.0; points * chosen.len()];
+    let mut sums = vec![0.0; tracing.rows() * chosen.len()];
     for first in (0..points).step_by(BATCH) {
         workspace.deposits.sky.get_or_insert_default().count = 0;
         tracer.light_from(first..points.min(first + BATCH), directions, workspace);
         for (sky, entry) in workspace.deposits.sky.iter().flat_map(|sky| (0..sky.count).map(move |entry| (sky, entry))) {
             let point = first + sky.slot[entry] as usize - BATCH;
-            sums[point * chosen.len() + sky.number(entry) - chosen.start] += f64::from(sky.value[entry]);
+            let row = sky.opening(entry) * points + point;
+            sums[row * chosen.len() + sky.number(entry) - chosen.start] += f64::from(sky.value[entry]);
         }
     }
     sums

@@ -1,0 +1,168 @@
+//! A year of daylight on a scene's grids: traced coefficients as `gonio_annual` takes them.
+//!
+//! [`AnnualGrid::all`] lays grids out, [`trace`] gives each a group of windows, and `gonio_annual::evaluate` makes a year of it.
+
+mod facade;
+mod file;
+mod grid;
+mod keeper;
+mod sky;
+
+pub use facade::{Facade, FacadeBlinds};
+pub use grid::AnnualGrid;
+pub use keeper::Checkpoints;
+
+use crate::{
+    error::{Diagnostic, Error, Result},
+    measure::{DaylightCoefficients, Keeping, Kept, Watch, daylight_coefficients, trace_rounds},
+    scene::{Meter, Scene},
+    sky::Frame,
+};
+use file::Traced;
+use gonio_annual::{AnnualError, Blinds, Coefficients, Group, Year};
+use gonio_simd::Execution;
+use keeper::Keeper;
+use sky::under_sky;
+use std::ops::Range;
+
+/// What is traced.
+#[derive(Clone, Debug)]
+pub struct AnnualTask<'a> {
+    /// The year, whose suns are traced at their places.
+    pub year: &'a Year,
+    /// Where up and north are in the scene.
+    pub frame: Frame,
+    /// Reinhart's division of the sky, 1 to 6.
+    pub factor: u32,
+    /// Windows with blinds of their own, whose light is told apart; one without prims has all light.
+    pub facades: &'a [Facade],
+    /// Scenes with closed blinds.
+    pub closed: &'a [Scene],
+}
+
+/// By grid its groups of windows, and what differs from what was asked for: `scene.settings.samples` paths a point. The groups are those of the task's
+/// facades in their order, then light that comes through none of them, where there is any. None where a part alone was asked for, which `checkpoints` keeps.
+///
+/// # Errors
+/// Facades that are nowhere, what compiling finds, coefficients that would take too much memory, checkpoints of others, cancellation.
+pub fn trace(
+    scene: &Scene,
+    grids: &[AnnualGrid],
+    (task, checkpoints): (&AnnualTask<'_>, &Checkpoints),
+    execution: Execution,
+    watch: &mut Watch<'_>,
+) -> Result<(Option<Vec<Vec<Group>>>, Vec<Diagnostic>)> {
+    facade::check(scene, task.facades)?;
+    let points: Vec<Meter> = grids.iter().flat_map(AnnualGrid::meters).collect();
+    let scenes: Vec<&Scene> = std::iter::once(scene).chain(task.closed).collect();
+    let (kept, diagnostics) = rounds(&scenes, &points, (task, checkpoints), execution, watch)?;
+    if checkpoints.part.is_some() {
+        return Ok((None, diagnostics));
+    }
+    let traced: Vec<DaylightCoefficients> = kept.into_iter().map(DaylightCoefficients::from).collect();
+    let mut first = 0;
+    let groups = |grid: &AnnualGrid| {
+        let rows = first..first + grid.positions.len();
+        first = rows.end;
+        groups(&traced, (points.len(), rows), task.facades)
+    };
+    Ok((Some(grids.iter().map(groups).collect::<Result<Vec<_>>>()?), diagnostics))
+}
+
+/// The groups of windows of a grid's rows, which are some of all points.
+fn groups(traced: &[DaylightCoefficients], (points, rows): (usize, Range<usize>), facades: &[Facade]) -> Result<Vec<Group>> {
+    let are_told_apart = facades.iter().any(|facade| !facade.prims.is_empty());
+    let parts = if are_told_apart { facades.len() + 1 } else { 1 };
+    let of_part = |rounds: &[Vec<f32>], part: usize| matrix(rounds, parts * points, part * points + rows.start..part * points + rows.end);
+    let group = |part: usize, facade: Option<&Facade>| {
+        let open = &traced[0];
+        let blinds = match facade.and_then(|facade| facade.blinds) {
+            Some(FacadeBlinds::Share(share)) => Some(Blinds::Share(share)),
+            Some(FacadeBlinds::Scene(number)) => {
+                traced.get(number + 1).map(|closed| of_part(&closed.all, part)).transpose()?.map(Blinds::Coefficients)
+            }
+            None => None,
+        };
+        Ok(Group {
+            open: of_part(&open.all, part)?,
+            scattered: Some(of_part(&open.scattered, part)?),
+            direct: Some(of_part(std::slice::from_ref(&open.suns), part)?),
+            sun: None,
+            blinds,
+            closed: facade.and_then(|facade| facade.closed.clone()),
+        })
+    };
+    if !are_told_apart {
+        return Ok(vec![group(0, facades.first())?]);
+    }
+    let rest = group(0, None)?;
+    let is_lit = |of: &Coefficients| of.blocks.iter().flatten().any(|value| *value > 0.0);
+    let facades = facades.iter().enumerate().map(|(place, facade)| group(place + 1, Some(facade)));
+    facades.chain(is_lit(&rest.open).then_some(Ok(rest))).collect()
+}
+
+/// What is found in scenes, of which the first alone asks for suns at their places: by scene, what checkpoints have and what is traced.
+fn rounds(
+    scenes: &[&Scene],
+    points: &[Meter],
+    (task, checkpoints): (&AnnualTask<'_>, &Checkpoints),
+    execution: Execution,
+    watch: &mut Watch<'_>,
+) -> Result<(Vec<Kept>, Vec<Diagnostic>)> {
+    let (rounds, suns) = checkpoints.rounds()?;
+    let mut diagnostics = Vec::new();
+    let kept = under_sky(task, points.len(), |sky| {
+        let are_wanted = checkpoints.are_wanted();
+        let traced: Vec<Traced> = scenes.iter().filter(|_| are_wanted).map(|scene| Traced::new(scene, points, sky, execution)).collect();
+        let mut all = if are_wanted { checkpoints.read(&traced)? } else { vec![Kept::default(); scenes.len()] };
+        let mut keeper = Keeper::new(checkpoints, &traced);
+        for (number, scene) in scenes.iter().enumerate() {
+            let mut kept = std::mem::take(&mut all[number]);
+            let others = &all;
+            let mut keep = keeper.as_mut().map(|keeper| {
+                move |kept: &Kept| {
+                    let all: Vec<&Kept> =
+                        others.iter().enumerate().map(|(place, other)| if place == number { kept } else { other }).collect();
+                    keeper.keep_if_due(&all);
+                }
+            });
+            let finished = keep.as_mut().map(|keep| keep as &mut (dyn FnMut(&Kept) + Send));
+            let mut keeping = Keeping { kept: &mut kept, rounds: rounds.clone(), suns: suns && number == 0, finished };
+            let told = trace_rounds(scene, points, sky, execution, watch, &mut keeping);
+            all[number] = kept;
+            let ends = told.is_err() || number + 1 == scenes.len();
+            let written = keeper.as_mut().filter(|_| ends).map_or(Ok(()), |keeper| keeper.keep(&all.iter().collect::<Vec<_>>()));
+            diagnostics.extend(told?);
+            written?;
+        }
+        diagnostics.extend(keeper.into_iter().flat_map(|keeper| keeper.diagnostics));
+        Ok(all)
+    })?;
+    Ok((kept, diagnostics))
+}
+
+/// The coefficients of all points in a scene.
+pub(crate) fn coefficients(
+    scene: &Scene,
+    points: &[Meter],
+    task: &AnnualTask<'_>,
+    execution: Execution,
+    watch: &mut Watch<'_>,
+) -> Result<DaylightCoefficients> {
+    under_sky(task, points.len(), |sky| daylight_coefficients(scene, points, sky, execution, watch))
+}
+
+/// Rows of some of all points, in all rounds.
+pub(crate) fn matrix(rounds: &[Vec<f32>], all: usize, rows: Range<usize>) -> Result<Coefficients> {
+    let columns = rounds.first().map_or(0, Vec::len) / all.max(1);
+    let blocks = rounds.iter().map(|round| round[rows.start * columns..rows.end * columns].to_vec()).collect();
+    Coefficients::new(rows.len(), columns, blocks).map_err(|error| Error::setting("grids", error.to_string()))
+}
+
+/// A year's error as one of the scene's.
+pub fn told(error: AnnualError) -> Error {
+    match error {
+        AnnualError::Content { path, error } => Error::in_file(path, &error),
+        AnnualError::Setting { name, problem } => Error::setting(name, problem),
+    }
+}
