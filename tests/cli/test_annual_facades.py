@@ -73,10 +73,10 @@ def test_real_blinds_of_one_and_of_both(year):
         assert 0.93 < found.mean() / total.mean() < 1.01, (closed, found.mean(), total.mean())
         assert grid["groups"] == ["south", "west"] and grid["closed_hours"][0] > 3000
     assert grid["closed_hours"][1] > 3000
-    # Traced together that is there too; the sun is in patches, though.
+    # Traced together that is there too.
     shared = [word for state in states.values() for word in ("--closed-variant", state)]
     _, found, _ = year(*SOUTH, *WEST, *shared, "--closed-hours", ALWAYS)
-    assert found.mean() == pytest.approx(total.mean(), rel=0.01)
+    assert found == pytest.approx(total, rel=1e-5, abs=1e-2)
 
 
 def test_sun_closes_the_groups_that_leave_most_light(year):

@@ -20,7 +20,9 @@ _SHADER = """def Material "{name}"
 
 def _material(name, **inputs):
     kinds = {float: "float", bool: "bool", tuple: "color3f"}
-    lines = [f"        {kinds[type(value)]} inputs:{key} = {int(value) if isinstance(value, bool) else value}" for key, value in inputs.items()]
+    lines = [
+        f"        {kinds[type(value)]} inputs:{key} = {int(value) if isinstance(value, bool) else value}" for key, value in inputs.items()
+    ]
     return _SHADER.format(name=name, inputs="\n".join(lines))
 
 
@@ -28,19 +30,21 @@ def _matte(name, grey, **inputs):
     return _material(name, base_color=(grey,) * 3, specular_weight=0.0, **inputs)
 
 
-MATERIALS = "".join([
-    _matte("Wall", 0.6),
-    _matte("Soil", 0.2),
-    _matte("Fabric", 0.5, geometry_opacity=0.9),
-    _material(
-        "Pane",
-        base_weight=0.0,
-        transmission_weight=1.0,
-        transmission_color=(0.75,) * 3,
-        specular_roughness=0.0,
-        geometry_thin_walled=True,
-    ),
-])
+MATERIALS = "".join(
+    [
+        _matte("Wall", 0.6),
+        _matte("Soil", 0.2),
+        _matte("Fabric", 0.5, geometry_opacity=0.9),
+        _material(
+            "Pane",
+            base_weight=0.0,
+            transmission_weight=1.0,
+            transmission_color=(0.75,) * 3,
+            specular_roughness=0.0,
+            geometry_thin_walled=True,
+        ),
+    ]
+)
 
 
 def quad(name, corners, material, indent=""):
@@ -97,8 +101,8 @@ def facade(name, place, window):
 
 def stage(more=""):
     """The room as a stage: floor /Room/Floor, facades /Room/South and /Room/West."""
-    south = lambda along, up, deep=0.0: (along, deep, up)  # noqa: E731
-    west = lambda along, up, deep=0.0: (deep, along, up)  # noqa: E731
+    south = lambda along, up, deep=0.0: (along, deep, up)
+    west = lambda along, up, deep=0.0: (deep, along, up)
     windows = {"South": (0.5, WIDE - 0.5), "West": (1.0, 4.0)}
     inside = [
         quad("Floor", [(0, 0, 0), (WIDE, 0, 0), (WIDE, DEEP, 0), (0, DEEP, 0)], "Wall"),

@@ -7,8 +7,17 @@ use crate::{Coefficients, Schedule};
 pub enum Blinds {
     /// This share of the light through open ones; 0.02 is usual.
     Share(f32),
-    /// Coefficients of their own.
+    /// Coefficients of their own, of all light: the sun is in the patches.
     Coefficients(Coefficients),
+    /// The same with the sun at its place, as where [`Group::scattered`] is given.
+    Traced {
+        /// Of all light: points × patches.
+        all: Coefficients,
+        /// Of light that was scattered on its way: points × patches.
+        scattered: Coefficients,
+        /// Of direct light: points × suns.
+        suns: Coefficients,
+    },
 }
 
 /// Windows whose blinds are operated together.

@@ -170,9 +170,9 @@ pub(crate) fn annual(
     watched(py, ask, |stop, progress| {
         let (grids, mut diagnostics) = AnnualGrid::all(&open)?;
         let mut watch = Watch { previous: None, cancel: stop, progress };
-        let (groups, of_light) = trace(&open, &grids, (&task, &checkpoints), Execution::detect(), &mut watch)?;
-        let Some(groups) = groups else { return Ok(Vec::new()) };
-        diagnostics.extend(of_light);
+        let traced = trace(&open, &grids, (&task, &checkpoints), Execution::detect(), &mut watch)?;
+        let Some(groups) = traced.groups else { return Ok(Vec::new()) };
+        diagnostics.extend(traced.diagnostics);
         let diagnostics = error::told(&diagnostics);
         let settings = Settings { sky, memory: MEMORY, threads: gonio::threads::available_threads(), electric };
         grids.into_iter().zip(groups).map(|(place, groups)| reading((place, groups, &diagnostics), (&year, &schedule), &settings)).collect()

@@ -37,7 +37,7 @@ def mesh(name, boxes_or_quads, material):
 
 def box(low, high):
     """The six faces of a box."""
-    corner = lambda *which: tuple(high[axis] if bit else low[axis] for axis, bit in enumerate(which))  # noqa: E731
+    corner = lambda *which: tuple(high[axis] if bit else low[axis] for axis, bit in enumerate(which))
     faces = []
     for axis in range(3):
         for side in (0, 1):
@@ -54,7 +54,9 @@ def desks():
         for row in range(4):
             x, y = 1.6 + column * 2.2, 1.2 + row * 2.8
             faces += box((x, y, high - 0.03), (x + wide, y + deep, high)) + box((x, y, 0), (x + 0.03, y + deep, high - 0.03))
-            faces += box((x + wide - 0.03, y, 0), (x + wide, y + deep, high - 0.03)) + box((x, y + deep, 0.4), (x + wide, y + deep + 0.03, 1.15))
+            faces += box((x + wide - 0.03, y, 0), (x + wide, y + deep, high - 0.03)) + box(
+                (x, y + deep, 0.4), (x + wide, y + deep + 0.03, 1.15)
+            )
             faces += box((x + 0.55, y - 0.6, 0.4), (x + 1.05, y - 0.15, 0.46)) + box((x + 0.55, y - 0.62, 0.46), (x + 1.05, y - 0.58, 0.95))
     return mesh("Desks", faces, "Wall")
 
@@ -65,13 +67,16 @@ def slats(place, window):
     out, up = (0.5 * SLAT * turn(math.radians(TILT_DEG)) for turn in (math.cos, math.sin))
     heights = [SILL + PITCH * (number + 0.5) for number in range(int((LINTEL - SILL) / PITCH))]
     quads = [(-0.1 - out, height - up, -0.1 + out, height + up) for height in heights]
-    return [[place(first, low, outer), place(last, low, outer), place(last, high, inner), place(first, high, inner)] for outer, low, inner, high in quads]
+    return [
+        [place(first, low, outer), place(last, low, outer), place(last, high, inner), place(first, high, inner)]
+        for outer, low, inner, high in quads
+    ]
 
 
 def facade(name, place, length):
     """Panes in bays, walls about them, slats in the variant `closed`."""
     windows = [(BAY * bay + 0.1, BAY * (bay + 1) - 0.1) for bay in range(int(length / BAY))]
-    pane = lambda a, b: [place(a, SILL), place(b, SILL), place(b, LINTEL), place(a, LINTEL)]  # noqa: E731
+    pane = lambda a, b: [place(a, SILL), place(b, SILL), place(b, LINTEL), place(a, LINTEL)]
     solid = [(0, length, 0, SILL), (0, length, LINTEL, HIGH)]
     edges = [0, *(edge for window in windows for edge in window), length]
     solid += [(a, b, SILL, LINTEL) for a, b in zip(edges[::2], edges[1::2], strict=True)]

@@ -1,7 +1,12 @@
 //! A chunk's columns of the sky.
 
 use super::shape::Shape;
-use crate::{division::Division, group::Group, sky::SkyMatrix, sun::SUN_ANGLE_DEG};
+use crate::{
+    division::Division,
+    group::{Blinds, Group},
+    sky::SkyMatrix,
+    sun::SUN_ANGLE_DEG,
+};
 use std::f64::consts::PI;
 
 /// The skies that columns are taken from.
@@ -30,8 +35,9 @@ impl Columns {
     pub(super) fn new(skies: &Skies<'_>, groups: &[Group], shape: &Shape, steps: &[usize], threads: usize) -> Self {
         let patches = Division::count(shape.factor);
         let is_direct = |group: &Group| group.direct.as_ref().is_some_and(|direct| direct.columns == patches);
-        let is_in_patches = groups.iter().any(|group| is_direct(group) || group.scattered.is_some());
-        let is_apart = groups.iter().any(|group| group.sun.is_some() || group.scattered.is_some());
+        let is_traced = |group: &Group| group.scattered.is_some() || matches!(group.blinds, Some(Blinds::Traced { .. }));
+        let is_in_patches = groups.iter().any(|group| is_direct(group) || is_traced(group));
+        let is_apart = groups.iter().any(|group| group.sun.is_some() || is_traced(group));
         let columns = |of: &SkyMatrix<'_>, is_needed: bool| if is_needed { of.columns(steps, threads) } else { Vec::new() };
         let [all, alone, sky] =
             [(skies.all, true), (skies.alone, is_in_patches), (skies.sky, is_apart)].map(|(of, needed)| columns(of, needed));

@@ -29,6 +29,7 @@ enum Direct {
 enum Closed {
     Share(f32),
     Panels(Panels),
+    Traced { all: Panels, scattered: Panels, suns: Direct },
 }
 
 impl Prepared {
@@ -49,6 +50,9 @@ impl Prepared {
             blinds: group.blinds.as_ref().map(|blinds| match blinds {
                 Blinds::Share(share) => Closed::Share(*share),
                 Blinds::Coefficients(closed) => Closed::Panels(panels(closed)),
+                Blinds::Traced { all, scattered, suns } => {
+                    Closed::Traced { all: panels(all), scattered: panels(scattered), suns: Direct::Suns(mean(suns, without), suns.columns) }
+                }
             }),
             closed: group.closed.clone(),
         };
@@ -110,10 +114,7 @@ impl Prepared {
         let of_sun = self.direct.as_ref().map(|direct| direct.light(columns, threads));
         let open = match (&self.sun, &self.scattered, &of_sun) {
             (Some(sun), ..) => sum(self.open.times(&columns.sky, threads), &sun.light(columns, threads)),
-            (None, Some(scattered), Some(of_sun)) => {
-                let of_sky = sum(self.open.times(&columns.sky, threads), &scattered.times(&columns.alone, threads));
-                sum(of_sky, of_sun)
-            }
+            (None, Some(scattered), Some(of_sun)) => with_sun_at_its_place([&self.open, scattered], of_sun, columns, threads),
             _ => self.open.times(&columns.all, threads),
         };
         let closed = self.closed.as_ref().map(|closed| columns.steps.iter().map(|step| closed.is_used(*step)).collect());
@@ -125,9 +126,17 @@ impl Prepared {
         match &self.blinds {
             Some(Closed::Share(share)) => open.iter().map(|value| value * share).collect(),
             Some(Closed::Panels(panels)) => panels.times(&columns.all, threads),
+            Some(Closed::Traced { all, scattered, suns }) => {
+                with_sun_at_its_place([all, scattered], &suns.light(columns, threads), columns, threads)
+            }
             None => open.to_vec(),
         }
     }
+}
+
+/// Light of the sky, of the sun by what it lights, and of the sun itself.
+fn with_sun_at_its_place([all, scattered]: [&Panels; 2], of_sun: &[f32], columns: &Columns, threads: usize) -> Vec<f32> {
+    sum(sum(all.times(&columns.sky, threads), &scattered.times(&columns.alone, threads)), of_sun)
 }
 
 fn sum(mut to: Vec<f32>, other: &[f32]) -> Vec<f32> {

@@ -31,13 +31,21 @@ pub(super) fn shape(groups: &[Group], year: &Year) -> Result<Shape> {
     sunny.iter().enumerate().for_each(|(column, step)| shape.suns[*step] = Some(column));
     let (patches, suns) = ((patches, "patches"), (sunny.len(), "suns, one for each step of the weather with the sun up"));
     for group in groups {
-        let closed = if let Some(Blinds::Coefficients(closed)) = &group.blinds { Some(closed) } else { None };
-        for of in [Some(&group.open), closed, group.scattered.as_ref()].into_iter().flatten() {
+        let closed = match &group.blinds {
+            Some(Blinds::Coefficients(closed)) => [Some(closed), None],
+            Some(Blinds::Traced { all, scattered, .. }) => [Some(all), Some(scattered)],
+            Some(Blinds::Share(_)) | None => [None, None],
+        };
+        for of in [Some(&group.open), group.scattered.as_ref()].into_iter().chain(closed).flatten() {
             shape.check(of, &[patches])?;
+        }
+        if let Some(Blinds::Traced { suns: of, .. }) = &group.blinds {
+            shape.check(of, &[suns])?;
         }
         group.direct.iter().try_for_each(|of| shape.check(of, &[patches, suns]))?;
         group.sun.iter().try_for_each(|of| shape.check(of, &[suns]))?;
-        if group.scattered.is_some() && group.direct.as_ref().is_none_or(|direct| direct.columns == patches.0) {
+        let is_apart = group.scattered.is_some() || matches!(group.blinds, Some(Blinds::Traced { .. }));
+        if is_apart && group.direct.as_ref().is_none_or(|direct| direct.columns == patches.0) {
             return Err(AnnualError::setting(
                 "scattered",
                 "direct coefficients of suns are missing: they bring the rest of the sun's light",

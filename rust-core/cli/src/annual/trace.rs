@@ -18,7 +18,7 @@ use crate::{
 };
 use gonio::{
     Diagnostic, Result,
-    annual::{AnnualGrid, AnnualTask, Checkpoints, trace},
+    annual::{AnnualGrid, AnnualTask, Checkpoints, GridsTraced, trace},
     measure::Watch,
     scene::{Integrator, Scene},
     sky::Frame,
@@ -49,7 +49,7 @@ pub(crate) fn annual(py: Python<'_>, options: &AnnualOptions, interrupted: &'sta
         let task = AnnualTask { year: &year, frame, factor: options.factor, facades: &facades, closed: &closed };
         let checkpoints = checkpoints(&options.rounds)?;
         let follow = |watch: &mut Watch<'_>| trace(&loaded.scene, &grids, (&task, &checkpoints), Execution::detect(), watch);
-        let (groups, diagnostics) = watched(Reporter::new(options.quiet), None, interrupted, follow)?;
+        let GridsTraced { groups, diagnostics } = watched(Reporter::new(options.quiet), None, interrupted, follow)?;
         tell(&diagnostics);
         let Some(groups) = groups else { return Ok(0) };
         let named = |(grid, groups): (&AnnualGrid, _)| Named { name: grid.name.clone(), groups };

@@ -40,8 +40,17 @@ pub struct AnnualTask<'a> {
     pub closed: &'a [Scene],
 }
 
-/// By grid its groups of windows, and what differs from what was asked for: `scene.settings.samples` paths a point. The groups are those of the task's
-/// facades in their order, then light that comes through none of them, where there is any. None where a part alone was asked for, which `checkpoints` keeps.
+/// What was traced.
+#[derive(Clone, Debug)]
+pub struct GridsTraced {
+    /// By grid its groups of windows: those of the task's facades in their order, then light that comes through none of them, where there is any. `None`
+    /// where a part alone was asked for, which checkpoints keep.
+    pub groups: Option<Vec<Vec<Group>>>,
+    /// What differs from what was asked for.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// Traces grids: `scene.settings.samples` paths a point.
 ///
 /// # Errors
 /// Facades that are nowhere, what compiling finds, coefficients that would take too much memory, checkpoints of others, cancellation.
@@ -51,13 +60,13 @@ pub fn trace(
     (task, checkpoints): (&AnnualTask<'_>, &Checkpoints),
     execution: Execution,
     watch: &mut Watch<'_>,
-) -> Result<(Option<Vec<Vec<Group>>>, Vec<Diagnostic>)> {
+) -> Result<GridsTraced> {
     facade::check(scene, task.facades)?;
     let points: Vec<Meter> = grids.iter().flat_map(AnnualGrid::meters).collect();
     let scenes: Vec<&Scene> = std::iter::once(scene).chain(task.closed).collect();
     let (kept, diagnostics) = rounds(&scenes, &points, (task, checkpoints), execution, watch)?;
     if checkpoints.part.is_some() {
-        return Ok((None, diagnostics));
+        return Ok(GridsTraced { groups: None, diagnostics });
     }
     let traced: Vec<DaylightCoefficients> = kept.into_iter().map(DaylightCoefficients::from).collect();
     let mut first = 0;
@@ -66,7 +75,7 @@ pub fn trace(
         first = rows.end;
         groups(&traced, (points.len(), rows), task.facades)
     };
-    Ok((Some(grids.iter().map(groups).collect::<Result<Vec<_>>>()?), diagnostics))
+    Ok(GridsTraced { groups: Some(grids.iter().map(groups).collect::<Result<_>>()?), diagnostics })
 }
 
 /// The groups of windows of a grid's rows, which are some of all points.
@@ -76,17 +85,20 @@ fn groups(traced: &[DaylightCoefficients], (points, rows): (usize, Range<usize>)
     let of_part = |rounds: &[Vec<f32>], part: usize| matrix(rounds, parts * points, part * points + rows.start..part * points + rows.end);
     let group = |part: usize, facade: Option<&Facade>| {
         let open = &traced[0];
+        let suns = |of: &DaylightCoefficients| of_part(std::slice::from_ref(&of.suns), part);
+        let closed = |closed: &DaylightCoefficients| {
+            let [all, scattered] = [of_part(&closed.all, part)?, of_part(&closed.scattered, part)?];
+            Ok(Blinds::Traced { all, scattered, suns: suns(closed)? })
+        };
         let blinds = match facade.and_then(|facade| facade.blinds) {
             Some(FacadeBlinds::Share(share)) => Some(Blinds::Share(share)),
-            Some(FacadeBlinds::Scene(number)) => {
-                traced.get(number + 1).map(|closed| of_part(&closed.all, part)).transpose()?.map(Blinds::Coefficients)
-            }
+            Some(FacadeBlinds::Scene(number)) => traced.get(number + 1).map(closed).transpose()?,
             None => None,
         };
         Ok(Group {
             open: of_part(&open.all, part)?,
             scattered: Some(of_part(&open.scattered, part)?),
-            direct: Some(of_part(std::slice::from_ref(&open.suns), part)?),
+            direct: Some(suns(open)?),
             sun: None,
             blinds,
             closed: facade.and_then(|facade| facade.closed.clone()),
@@ -101,7 +113,7 @@ fn groups(traced: &[DaylightCoefficients], (points, rows): (usize, Range<usize>)
     facades.chain(is_lit(&rest.open).then_some(Ok(rest))).collect()
 }
 
-/// What is found in scenes, of which the first alone asks for suns at their places: by scene, what checkpoints have and what is traced.
+/// By scene what is found in it: what checkpoints have and what is traced.
 fn rounds(
     scenes: &[&Scene],
     points: &[Meter],
@@ -127,7 +139,7 @@ fn rounds(
                 }
             });
             let finished = keep.as_mut().map(|keep| keep as &mut (dyn FnMut(&Kept) + Send));
-            let mut keeping = Keeping { kept: &mut kept, rounds: rounds.clone(), suns: suns && number == 0, finished };
+            let mut keeping = Keeping { kept: &mut kept, rounds: rounds.clone(), suns, finished };
             let told = trace_rounds(scene, points, sky, execution, watch, &mut keeping);
             all[number] = kept;
             let ends = told.is_err() || number + 1 == scenes.len();
