@@ -3,11 +3,11 @@
 //! A ray goes out where it passes a pane behind which the sky is seen past everything else, or by an open hole of the room. What it meets then is outside.
 
 use super::{
-    ViewTask,
     figures::Outside,
     met::{Meeting, Met},
     outdoors::{Outdoors, Side},
     prims::Prims,
+    task::ViewTask,
 };
 use crate::{
     compile::CompiledScene,

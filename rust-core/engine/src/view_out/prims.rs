@@ -1,6 +1,6 @@
 //! Elements of the scene that somebody named as ground or as openings.
 
-use super::ViewTask;
+use super::task::ViewTask;
 use crate::{
     compile::CompiledScene,
     error::{Error, Result},
