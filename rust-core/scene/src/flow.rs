@@ -71,7 +71,8 @@ impl Flow {
 /// Whether two maps are one but for rounding.
 fn is_like(map: &Transform, other: &Transform) -> bool {
     let size = map.columns[..3].as_flattened().iter().fold(0.0f64, |most, x| most.max(x.abs()));
-    let room = |column: usize| 1e-6 * if column == 3 { size.max(map.columns[3].iter().fold(0.0, |most, x| x.abs().max(most))) } else { size };
+    let room =
+        |column: usize| 1e-6 * if column == 3 { size.max(map.columns[3].iter().fold(0.0, |most, x| x.abs().max(most))) } else { size };
     (0..4).all(|column| (0..3).all(|row| (map.columns[column][row] - other.columns[column][row]).abs() <= room(column)))
 }
 

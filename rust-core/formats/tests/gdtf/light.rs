@@ -71,9 +71,9 @@ fn a_gaussian_has_its_closed_peak() {
 #[test]
 fn the_flux_is_that_of_the_curve_by_another_sum() {
     // The table's peak against the curve's own, by the midpoint rule on 200 000 rings.
-    for (beam_deg, field_deg) in [(20.0, 40.0), (8.0, 9.0), (60.0, 100.0), (5.0, 30.0)] {
+    for (beam_deg, field_deg) in [(20.0f64, 40.0), (8.0, 9.0), (60.0, 100.0), (5.0, 30.0)] {
         let found = beam(&format!("LuminousFlux=\"1000\" BeamAngle=\"{beam_deg}\" FieldAngle=\"{field_deg}\""));
-        let exponent = (10f64.ln() / LN_2).ln() / (field_deg / beam_deg as f64).ln();
+        let exponent = (10f64.ln() / LN_2).ln() / (field_deg / beam_deg).ln();
         let step = PI / 200_000.0;
         let ring = |theta: f64| 2.0 * PI * theta.sin() * step * (-LN_2 * (2.0 * theta.to_degrees() / beam_deg).powf(exponent)).exp();
         let unit: f64 = (0..200_000).map(|place| ring((f64::from(place) + 0.5) * step)).sum();

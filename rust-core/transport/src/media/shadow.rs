@@ -24,6 +24,17 @@ struct Stretch {
     ends: [f32; 2],
 }
 
+/// Columns of rays that are tracked.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TrackedRays<'a> {
+    pub(crate) origin: [&'a [f32]; 3],
+    pub(crate) direction: [&'a [f32]; 3],
+    /// None where nothing moves.
+    pub(crate) time: &'a [f32],
+    /// What tells samples apart that send the same ray.
+    pub(crate) salt: &'a [u32],
+}
+
 /// By shadow ray; used where anything absorbs.
 #[derive(Debug)]
 pub struct OpticalDepth {
@@ -78,13 +89,13 @@ impl OpticalDepth {
         }
     }
 
-    /// Dims what rays carry by what varies along them; those that something blocks are left. Times are empty where nothing moves.
+    /// Dims what rays carry by what varies along them; those that something blocks are left.
     #[inline(always)]
-    pub fn track<L: Lanes>(
+    pub(crate) fn track<L: Lanes>(
         &mut self,
         l: L,
         table: &MediumTable,
-        (origins, directions, times, salts): ([&[f32]; 3], [&[f32]; 3], &[f32], &[u32]),
+        rays: TrackedRays<'_>,
         blocked: &[u8],
         carried: &mut SpectrumColumns,
     ) {
@@ -102,14 +113,17 @@ impl OpticalDepth {
                 ends[1][lane] = stretch.ends[1];
             }
             let number = l.load_integers(&ray, 0);
-            let [origin, direction] = [origins, directions].map(
+            let [origin, direction] = [rays.origin, rays.direction].map(
                 #[inline(always)]
                 |[x, y, z]| Vec3::new(l.gather(x, number), l.gather(y, number), l.gather(z, number)),
             );
             let way = [l.load(&ends[0], 0), l.load(&ends[1], 0)];
-            let time = || if times.is_empty() { l.f(0.5) } else { l.gather(times, number) };
+            let time = || if rays.time.is_empty() { l.f(0.5) } else { l.gather(rays.time, number) };
             let Some(track) = Track::of(l, table, media.load(l, 0), [origin, direction], time) else { continue };
-            left.store(track.transmittance(way, l.first(some.len()), seed(origin, direction, way[0], l.gather_integers(salts, number))), 0);
+            left.store(
+                track.transmittance(way, l.first(some.len()), seed(origin, direction, way[0], l.gather_integers(rays.salt, number))),
+                0,
+            );
             for (lane, ray) in ray[..some.len()].iter().enumerate() {
                 carried.multiply(*ray as usize, left, lane);
             }

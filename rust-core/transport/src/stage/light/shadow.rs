@@ -5,6 +5,7 @@
 use crate::accumulate::deposit::{Contribution, Deposits};
 use crate::graph::CHUNK;
 use crate::kernels;
+use crate::media::shadow::TrackedRays;
 use crate::stage::find::closures::{ClosureHits, MaterialHits, each_closure};
 use crate::stage::light::linked_shadow;
 use crate::stage::light::nee::clamps_late;
@@ -16,6 +17,7 @@ use crate::state::columns::load3;
 use crate::state::queue::shadow_order::ShadowOrder;
 use crate::state::queue::shadow_rays::ShadowRays;
 use crate::state::queue::shadow_trace::ShadowTrace;
+use crate::state::rays::Rays;
 use crate::tables::Tables;
 use crate::tables::material::{parameter_values, threshold};
 use crate::tables::transport::{Limits, Transport};
@@ -183,7 +185,8 @@ fn attenuate<L: Lanes>(l: L, tables: &Tables, shadows: &mut ShadowRays, trace: &
         shadows.contribution.store(shadows.contribution.load(l, at) * left, at);
     }
     if tables.materials.media.varies() {
-        let rays = (slices(&shadows.rays.origin), slices(&shadows.rays.direction), &*shadows.rays.time, &*shadows.salt);
+        let Rays { origin, direction, time, .. } = &shadows.rays;
+        let rays = TrackedRays { origin: slices(origin), direction: slices(direction), time, salt: &shadows.salt };
         trace.depth.track(l, &tables.materials.media, rays, &trace.blocked, &mut shadows.contribution);
     }
 }
