@@ -127,7 +127,7 @@ impl AnnualReading {
 /// where it is there; part: one part alone, such as (3, 4), is traced into it, and there are no readings; merge: the parts' checkpoints, whose rounds are
 /// taken in place of tracing.
 #[pyfunction]
-#[pyo3(signature = (scene, weather, *, samples = 8192, division = 2, schedule = None, groups = None, blinds = None, closed = None, closed_hours = None, sky = "perez", ground = 0.2, dew_point = None, up = "Z", north = 0.0, lighting = None, checkpoint = None, resume = false, part = None, merge = Vec::new(), cancelled = None))]
+#[pyo3(signature = (scene, weather, *, samples = 8192, division = 2, schedule = None, groups = None, blinds = None, closed = None, closed_hours = None, sky = "perez", ground = 0.2, dew_point = None, up = "Z", north = 0.0, lighting = None, checkpoint = None, resume = false, part = None, merge = None, cancelled = None))]
 #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
 pub(crate) fn annual(
     py: Python<'_>,
@@ -149,7 +149,7 @@ pub(crate) fn annual(
     checkpoint: Option<PathBuf>,
     resume: bool,
     part: Option<[u32; 2]>,
-    merge: Vec<PathBuf>,
+    merge: Option<Vec<PathBuf>>,
     cancelled: Option<Py<PyAny>>,
 ) -> PyResult<Vec<AnnualReading>> {
     let year = Year::read(Path::new("weather"), weather).map_err(|error| exception(told(error)))?;
@@ -165,7 +165,7 @@ pub(crate) fn annual(
         facades: &facades,
         closed: &closed,
     };
-    let checkpoints = Checkpoints { path: checkpoint, every: EVERY, resume, part, merge };
+    let checkpoints = Checkpoints { path: checkpoint, every: EVERY, resume, part, merge: merge.unwrap_or_default() };
     let ask = |py: Python<'_>, _: Option<&gonio::render::Progress>| unless(py, cancelled.as_ref());
     watched(py, ask, |stop, progress| {
         let (grids, mut diagnostics) = AnnualGrid::all(&open)?;

@@ -282,7 +282,7 @@ def annual(
     checkpoint: str | PathLike[str] | None = None,
     resume: bool = False,
     part: tuple[int, int] | None = None,
-    merge: Sequence[str | PathLike[str]] = (),
+    merge: Sequence[str | PathLike[str]] | None = None,
     cancelled: Callable[[], bool] | None = None,
 ) -> list[AnnualReading]: ...
 
