@@ -225,6 +225,7 @@ class Exporter:
         self.report.forget_all("Object")
         walk = Walk(depsgraph, self.report, self._part)
         keyed = list(zip(walk.groups, motion.keys_of(walk.groups), strict=True))
+        self._air.place(walk.groups, depsgraph)
         layer = depsgraph.view_layer_eval
         override = layer.material_override
         entries, keys, self._primvars, self._shown, self._form_shares = [], [], {}, {}, {}
@@ -259,7 +260,6 @@ class Exporter:
         self._lights.lamps([(group, key) for group, key in keyed if group.kind == "LIGHT"], self._instances.sets)
         self._meshes.sweep()
         self._fibres.sweep()
-        self._air.place(walk.groups, depsgraph)
         self._volumes.sweep()
         self._insides.sweep()
         changes.geometry |= self._meshes.any_written or self._fibres.any_written or self._volumes.any_written

@@ -42,6 +42,19 @@ def test_a_sun_is_dimmed_by_all_of_its_way(degrees):
     within(found[1].value / found[0].value, found[1].standard_error / found[0].value, expected, 0.01)
 
 
+def test_a_sky_lights_the_ground_as_the_exponential_integral_says():
+    """2 E₃ of the optical depth of all layers: .600084 at 0.3."""
+    found = []
+    for filled in (False, True):
+        scene = gonio.Scene()
+        scene.put_meter({"origin": "meter", "position": [0.0, 0.0, 0.0], "normal": [0.0, 0.0, 1.0]})
+        scene.add_light("dome")
+        if filled:
+            layers(scene, np.linspace(1.0, 0.0, 100), absorption=0.006)
+        found.append(gonio.measure(scene, samples=65536 if filled else 4096).meters[0])
+    within(found[1].value / found[0].value, found[1].standard_error / found[0].value, 0.600084)
+
+
 def test_a_sky_is_seen_through_it():
     density = np.linspace(1.0, 0.0, 100)
     scene = looking((0.0, 0.0, 20.0), (0.0, 3.0, 24.0))

@@ -1,10 +1,8 @@
-"""Volumes of worlds that vary: fog that thins out with height, and in banks."""
-
-from math import radians
+"""Volumes of worlds that vary: fog that thins out with height."""
 
 import bpy
 from scenes_media import scattered
-from stage import ball, box, camera, diffuse, fill, lamp, new_world, node, plane
+from stage import ball, box, camera, diffuse, fill, lamp, new_world, node
 
 
 def by_steps(size: float) -> None:
@@ -23,12 +21,11 @@ def maths(tree: bpy.types.NodeTree, operation: str, *values) -> bpy.types.NodeSo
     return made.outputs[0]
 
 
-def air(density, sky: float = 0.0) -> None:
-    """A world of even light, whose volume is as dense as a socket that `density` makes in its tree."""
+def air(density) -> None:
+    """A world without light, whose volume is as dense as a socket that `density` makes in its tree."""
     tree = new_world()
     shader = node(tree, "ShaderNodeVolumePrincipled", Color=(0.8, 0.85, 0.9), Anisotropy=0.3, Density=density(tree))
-    light = node(tree, "ShaderNodeBackground", Color=(0.5, 0.7, 1.0), Strength=sky)
-    node(tree, "ShaderNodeOutputWorld", Surface=light.outputs[0], Volume=shader.outputs[0])
+    node(tree, "ShaderNodeOutputWorld", Volume=shader.outputs[0])
 
 
 def height(tree: bpy.types.NodeTree, place: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
@@ -46,19 +43,7 @@ def ramp(tree: bpy.types.NodeTree) -> bpy.types.NodeSocket:
     return made.outputs["Color"]
 
 
-def banks(tree: bpy.types.NodeTree) -> bpy.types.NodeSocket:
-    """Noise that the same ramp thins out."""
-    place = node(tree, "ShaderNodeTexCoord").outputs["Generated"]
-    return maths(tree, "MULTIPLY", ramp(tree), node(tree, "ShaderNodeTexNoise", Vector=place, Scale=0.8, Detail=1.0).outputs[0])
-
-
-def thinning(tree: bpy.types.NodeTree) -> bpy.types.NodeSocket:
-    """Half as much every 500 metres."""
-    place = height(tree, node(tree, "ShaderNodeTexCoord").outputs["Object"])
-    return maths(tree, "MULTIPLY", maths(tree, "POWER", 0.5, maths(tree, "DIVIDE", place, 500.0)), 4e-4)
-
-
-def room() -> None:
+def height_fog_with_lamp() -> None:
     """A closed room, a lamp in it, and a camera in the fog."""
     scattered(2)
     box(diffuse((0.6, 0.5, 0.4)), location=(0.0, 0.0, 2.0), scale=(8.0, 10.0, 4.0))
@@ -66,26 +51,5 @@ def room() -> None:
     ball(diffuse((0.2, 0.4, 0.7)), 0.4, location=(-0.9, 0.3, 0.4))
     lamp("POINT", 150.0, (-0.2, 0.8, 1.3), color=(1.0, 0.85, 0.7), shadow_soft_size=0.15, use_soft_falloff=True)
     camera((0.3, -4.4, 1.2), (0.0, 0.3, 1.0), lens=28.0)
-
-
-def height_fog_with_lamp() -> None:
-    room()
     air(ramp)
     by_steps(0.1)
-
-
-def fog_banks_with_lamp() -> None:
-    room()
-    air(banks)
-    by_steps(0.1)
-
-
-def height_fog_in_sun() -> None:
-    """A plain of kilometres, so that Cycles' cells are small beside the fog: its steps have no end towards a sun."""
-    scattered(1)
-    air(thinning, 0.4)
-    plane(diffuse((0.4, 0.35, 0.3)), 6000.0)
-    for number, (x, y, tall) in enumerate([(-600.0, 500.0, 900.0), (300.0, 1200.0, 1500.0), (800.0, 0.0, 500.0)]):
-        box(diffuse((0.5, 0.3 + 0.1 * number, 0.3)), location=(x, y, 0.5 * tall), scale=(200.0, 200.0, tall))
-    lamp("SUN", 3.0, (0.0, 0.0, 5.0), (0.8, -0.4, 0.3), angle=radians(4))
-    camera((0.0, -2600.0, 350.0), (0.0, 300.0, 500.0), lens=32.0, clip_end=1e5)

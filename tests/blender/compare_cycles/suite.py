@@ -103,8 +103,6 @@ SCENES = [
     Scene("media_nodes", "mixed"),
     Scene("media_nodes", "varied"),
     Scene("air", "height_fog_with_lamp", 448, 704, "INFO"),
-    Scene("air", "fog_banks_with_lamp", 448, 704, "INFO"),
-    Scene("air", "height_fog_in_sun", 256, 256, "INFO"),
     Scene("media_grids", "thin_smoke"),
     Scene("media_grids", "thin_smoke_by_steps"),
     Scene("media_grids", "dense_cloud"),

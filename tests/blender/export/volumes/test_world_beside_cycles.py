@@ -4,7 +4,8 @@ import pytest
 
 
 @pytest.mark.blender(seconds=900)
-@pytest.mark.parametrize("kind", ["height", "noise"])
+@pytest.mark.timeout(900)
+@pytest.mark.parametrize("kind", ["height", pytest.param("noise", marks=pytest.mark.validate)])
 def test_fog_in_a_room_with_a_lamp(tmp_path, kind):
     """Nothing escapes from the room: before nothing Cycles' steps are endless."""
     import bpy
