@@ -5,7 +5,6 @@
 use crate::accumulate::deposit::{Contribution, Deposits};
 use crate::graph::CHUNK;
 use crate::kernels;
-use crate::media::shadow::TrackedRays;
 use crate::stage::find::closures::{ClosureHits, MaterialHits, each_closure};
 use crate::stage::light::linked_shadow;
 use crate::stage::light::nee::clamps_late;
@@ -17,13 +16,12 @@ use crate::state::columns::load3;
 use crate::state::queue::shadow_order::ShadowOrder;
 use crate::state::queue::shadow_rays::ShadowRays;
 use crate::state::queue::shadow_trace::ShadowTrace;
-use crate::state::rays::Rays;
 use crate::tables::Tables;
 use crate::tables::material::{parameter_values, threshold};
 use crate::tables::transport::{Limits, Transport};
 use gonio_accel::TransparentHit;
 use gonio_bsdf::parameter::OPACITY;
-use gonio_simd::{Column, Frame, Lanes, Spectrum, SpectrumColumns, dispatch};
+use gonio_simd::{Frame, Lanes, Spectrum, SpectrumColumns, dispatch};
 
 /// Traces the queued shadow rays and adds the contributions of those that arrive.
 pub(crate) fn trace_shadows(
@@ -185,14 +183,8 @@ fn attenuate<L: Lanes>(l: L, tables: &Tables, shadows: &mut ShadowRays, trace: &
         shadows.contribution.store(shadows.contribution.load(l, at) * left, at);
     }
     if tables.materials.media.varies() {
-        let Rays { origin, direction, time, .. } = &shadows.rays;
-        let rays = TrackedRays { origin: slices(origin), direction: slices(direction), time, salt: &shadows.salt };
-        trace.depth.track(l, &tables.materials.media, rays, &trace.blocked, &mut shadows.contribution);
+        trace.track(l, tables, shadows);
     }
-}
-
-fn slices([x, y, z]: &[Column; 3]) -> [&[f32]; 3] {
-    [x, y, z]
 }
 
 /// Adds what a closure lets pass straight, times its weights if it is one of several.

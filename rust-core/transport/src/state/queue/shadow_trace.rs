@@ -1,16 +1,17 @@
 //! What tracing shadow rays needs beside their queue.
 
 use crate::graph::CHUNK;
-use crate::media::shadow::OpticalDepth;
+use crate::media::shadow::{OpticalDepth, TrackedRays};
 use crate::state::mix_weights::MixWeights;
 use crate::state::queue::shadow_order::ShadowOrder;
-use crate::state::queue::shadow_rays::SHADOW_ROOM;
+use crate::state::queue::shadow_rays::{SHADOW_ROOM, ShadowRays};
 use crate::state::rays::Rays;
 use crate::state::textured_emission::EmissionScratch;
 use crate::state::wavelengths::SlotWavelengths;
+use crate::tables::Tables;
 use crate::words::ray_mask;
 use gonio_accel::TransparentHit;
-use gonio_simd::{PADDING, SpectrumColumns};
+use gonio_simd::{Column, Lanes, PADDING, SpectrumColumns};
 use std::sync::Arc;
 
 /// Scratch of the shadow stage.
@@ -55,6 +56,18 @@ impl ShadowTrace {
         self.blocked.resize(rays + PADDING, 1);
         self.passed.clear();
     }
+
+    /// Dims what rays carry that nothing blocks by the media along them that vary.
+    #[inline(always)]
+    pub(crate) fn track<L: Lanes>(&mut self, l: L, tables: &Tables, shadows: &mut ShadowRays) {
+        let Rays { origin, direction, time, .. } = &shadows.rays;
+        let rays = TrackedRays { origin: slices(origin), direction: slices(direction), time, salt: &shadows.salt };
+        self.depth.track(l, &tables.materials.media, rays, &self.blocked, &mut shadows.contribution);
+    }
+}
+
+fn slices([x, y, z]: &[Column; 3]) -> [&[f32]; 3] {
+    [x, y, z]
 }
 
 impl Default for LinkedTrace {
