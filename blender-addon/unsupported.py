@@ -62,6 +62,10 @@ OBJECTS = {
         "full precision, trilinear and without steps",
     ),
     "curve types": _untold("Hair curves of the types Poly, Bézier and NURBS", "drawn through their points, as in Cycles"),
+    "shadowless lamps": _untold(
+        "Light of lamps without shadows that scattered rays would find behind what stands in between",
+        "that part is blocked, as in Cycles: little on matt surfaces, up to two fifths on glossy ones",
+    ),
     "within a lamp": _untold(
         "Light of lamps with *Soft Falloff* off within their own ball", "none: they shine outwards alone; Cycles lights what is in there"
     ),
