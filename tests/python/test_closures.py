@@ -117,7 +117,6 @@ def refracted(angle, roughness, eta, count=400_000):
     view = wo * (alpha, alpha, 1.0)
     view /= np.linalg.norm(view)
     across = np.array([0.0, 1.0, 0.0])
-    along = np.cross(view, across)
     radius, turn = np.sqrt(random.random(count)), 2 * np.pi * random.random(count)
     x, y, share = radius * np.cos(turn), radius * np.sin(turn), 0.5 * (1.0 + view[2])
     y = (1.0 - share) * np.sqrt(1.0 - x**2) + share * y

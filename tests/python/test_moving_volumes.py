@@ -5,7 +5,6 @@ import math
 import gonio
 import numpy as np
 import pytest
-from small_scenes import finished
 from test_fields import depth, smooth, value
 from test_media import looking, seen, within
 
@@ -65,7 +64,9 @@ def test_even_flows_are_motions(rests):
     expected = np.mean([math.exp(-0.2 * depth(array, start - (way, 0, 0), end - (way, 0, 0), 500)) for way in ways])
     scene = looking((8.3, 8.2, 30.0), (8.3, 8.2, 0.0))
     scene.add_light("dome")
-    scene.add_volume(array, velocity=np.broadcast_to(np.float32([6.0, 0.0, 0.0]), (*array.shape, 3)).copy(), shutter_s=0.5, rests=rests, **COEFFICIENTS)
+    scene.add_volume(
+        array, velocity=np.broadcast_to(np.float32([6.0, 0.0, 0.0]), (*array.shape, 3)).copy(), shutter_s=0.5, rests=rests, **COEFFICIENTS
+    )
     found, error = seen(scene, 1024)
     within(found.mean(), error, expected)
 
@@ -104,7 +105,12 @@ def test_light_to_a_place_is_dimmed_by_what_moves():
         scene.add_light("distant", (math.pi,) * 3, transform=gonio.look_at((10, 0, 10), (0, 0, 0), (0, 1, 0)))
         place = {"motion": keys, "transform": shifted(0.0)} if keys else {"transform": shifted(500.0)}
         moved = [np.array(key) @ np.array(shifted(4.0, -2.0, 4.0)) for key in keys or []]
-        scene.add_volume(np.ones((2, 4, 2), "f4"), transform=np.array(place["transform"]) @ np.array(shifted(4.0, -2.0, 4.0)), motion=moved, **COEFFICIENTS)
+        scene.add_volume(
+            np.ones((2, 4, 2), "f4"),
+            transform=np.array(place["transform"]) @ np.array(shifted(4.0, -2.0, 4.0)),
+            motion=moved,
+            **COEFFICIENTS,
+        )
         found.append(seen(scene, 1024))
     (moving, error), (clear, _) = found
     # The box is 2 m long along x, and 12 m in the time: the way through it is up to 2√2 m long.
@@ -119,7 +125,9 @@ def test_a_furnace_of_smoke_that_flows_and_moves():
     velocity = np.stack([5.0 * np.sin(0.3 * axes[2]), 4.0 * np.cos(0.2 * axes[0]), 3.0 * np.sin(0.4 * axes[1])], axis=-1).astype("f4")
     scene = looking((10.0, 8.0, 40.0), (10.0, 8.0, 0.0), degrees=40.0, size=16)
     scene.add_light("dome")
-    scene.add_volume(array, velocity=velocity, shutter_s=1.0, motion=[turned(-0.1), turned(0.1)], scattering=[0.5, 2.0, 5.0], anisotropy=0.3)
+    scene.add_volume(
+        array, velocity=velocity, shutter_s=1.0, motion=[turned(-0.1), turned(0.1)], scattering=[0.5, 2.0, 5.0], anisotropy=0.3
+    )
     found, error = seen(scene, 256)
     assert found == pytest.approx([1.0] * 3, abs=0.01) and error < 0.003
 
@@ -152,7 +160,9 @@ def test_one_field_in_several_things_stands_still_and_says_so():
     scene.add_volume(smooth((20, 11, 9)), **COEFFICIENTS)
     described = scene.to_dict()["instances"][0]
     place = np.array([np.eye(4)] * 2)
-    scene.put_instances(described["mesh"], described["materials"], place, motion=np.stack([place, place + np.eye(4)[:, ::-1] * 0.1]), index=0)
+    scene.put_instances(
+        described["mesh"], described["materials"], place, motion=np.stack([place, place + np.eye(4)[:, ::-1] * 0.1]), index=0
+    )
     scene.set(samples=1)
     with gonio.Render(scene) as render:
         assert render.wait() and any("2 things that move" in text for _, text in render.diagnostics)

@@ -79,7 +79,9 @@ class Volumes:
         medium = inside.medium
         values = (medium.absorption, medium.scattering, medium.emission)
         for name, instead in sorted(lacking(inside.translator, values, grids).items()):
-            self._report.add("Object", group.name, f"it has no grid '{name}', which its shader asks for; {instead:g} in its place, as in Cycles")
+            self._report.add(
+                "Object", group.name, f"it has no grid '{name}', which its shader asks for; {instead:g} in its place, as in Cycles"
+            )
 
     def _filling(self, key, inside, grids, here):
         """What fills one placement, made anew where something of it is another."""

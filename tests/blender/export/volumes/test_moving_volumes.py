@@ -45,7 +45,6 @@ def test_a_cloud_that_moves_and_turns(tmp_path):
 def test_a_mesh_whose_inside_varies_moves(tmp_path):
     import bpy
     from clouds import filled
-    from recorder import link
     from test_clouds_beside_cycles import alike, lit, look
 
     look(samples=64)
@@ -82,7 +81,9 @@ def picture(path, thing_of):
 
 
 @pytest.mark.blender(seconds=600)
-@pytest.mark.parametrize("unit, names, baked", [("FRAME", "whole", False), ("SECOND", "whole", False), ("FRAME", "parts", False), ("FRAME", "whole", True)])
+@pytest.mark.parametrize(
+    "unit, names, baked", [("FRAME", "whole", False), ("SECOND", "whole", False), ("FRAME", "parts", False), ("FRAME", "whole", True)]
+)
 def test_even_velocities_are_motions(tmp_path, unit, names, baked):
     import numpy as np
     from clouds import ball, cloud, stored
@@ -92,7 +93,9 @@ def test_even_velocities_are_motions(tmp_path, unit, names, baked):
     speed[..., 0], speed[..., 1] = 2.0, 1.0
     if unit == "SECOND":
         speed *= 24.0
-    grids = {"velocity": speed} if names == "whole" else {f"velocity_{axis}": speed[..., number].copy() for number, axis in enumerate("xyz")}
+    grids = (
+        {"velocity": speed} if names == "whole" else {f"velocity_{axis}": speed[..., number].copy() for number, axis in enumerate("xyz")}
+    )
     corner = (-12, -12, -12)
 
     def flowing(material):
