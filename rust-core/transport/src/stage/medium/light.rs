@@ -191,7 +191,10 @@ fn send_on<L: Lanes>(
     let weight = weight * tables.lights.scattered_factor(l, sample.light, l.u(event::VOLUME));
     let radiance = tables.lights.light(context.sample.wavelengths(l, way.core.slot), sample.light, sample.radiance);
     let whole = radiance * way.core.throughput * left * phase * (weight / sample.pdf);
-    let (value, ceiling) = clamped(tables, transport, sample, whole, way.bounces() + 1);
+    let (late, ceiling) = clamped(tables, transport, sample, whole, way.bounces() + 1);
+    // Held before it is dimmed on its way: so fog is as bright as Cycles' within limits, where surfaces hold what arrives.
+    let early = transport.limits.clamped(whole, way.bounces() + 1);
+    let value = if tables.lights.any_shaded() { tables.lights.is_shaded(l, sample.light).select(late, early) } else { early };
     let lit = usable & value.is_lit() & value.abs().max_component().is_finite();
     let flags = flags(context, way);
     let code = with_state(&transport.passes, code_of_found(flags, 0), flags);
