@@ -378,8 +378,8 @@ impl<'py> Placer<'_, '_, 'py> {
             instances
         });
         context.scene.instances = instances.collect();
-        volume::add_all(context, volumes);
         drop_meshes(context, &failed);
+        volume::add_all(context, volumes);
     }
 }
 

@@ -70,8 +70,7 @@ class Volumes:
                     if filling is not None:
                         for limit, subject in filling.told:
                             self._report.tell(limit, "Object", group.name, subject)
-                        found.append(self._shown(group, number, filling, here, inside))
-                        self._note_flow(group, grids, filling, here)
+                        found.append(self._shown(group, number, (grids, filling), here, inside))
         return found
 
     def _tell_lacking(self, group, inside, grids):
@@ -107,12 +106,16 @@ class Volumes:
             self.any_written = True
         return field, key, is_new
 
-    def _shown(self, group, number, filling, here, inside):
-        """Writes what is not there yet; gives the group of one placement, the box and the material."""
+    def _shown(self, group, number, filled, here, inside):
+        """Writes what is not there yet; gives the group of one placement, the box and the material. `filled` are the grids and what is made of them."""
+        grids, filling = filled
         field, key, is_new = self.field(group.name, filling, here.matrix)
         box, is_new_too = self._meshes.take(("box", key))
         if is_new or is_new_too:
             self._meshes.place(lambda index: self._keep_box(key, field, index), box)
+        flow = flowing(group, grids, filling, here)
+        if flow is not None:
+            self._flowing[field] = box, flow
         medium = {**filling.medium(here.density(group.data)), "field": field}
         material = self.material(_described(inside.name, medium, inside.pass_index))
         visibility = {ray: group.visibility[ray] for ray in RAYS}
@@ -121,18 +124,11 @@ class Volumes:
         shown = replace(group, rows=rows, matrices=placed, kept=None, is_itself=False, visibility=visibility)
         return shown, ("mesh", box), [material], number, np.linalg.inv(here.matrix) @ self._boxes[key]
 
-    def _note_flow(self, group, grids, filling, here):
-        """Keeps how a volume flows that has velocities, for when the shutter is known."""
-        found = flowing(group, grids, filling, here)
-        if found is not None:
-            field, key, _ = self.field(group.name, filling, here.matrix)
-            self._flowing[field] = self._meshes.take(("box", key))[0], found
-
     def blur(self, shutter, rate):
         """Has volumes flow that have velocities while the shutter is open, and their boxes hold them; `rate` is that of frames a second."""
-        for field, (box, found) in self._flowing.items():
-            with self._report.guard("Object", found.name, "it does not flow"):
-                self._scene.put_flow(field, columns(found.to_world), found.source(shutter, rate), found.rests(shutter))
+        for field, (box, flow) in self._flowing.items():
+            with self._report.guard("Object", flow.name, "it does not flow"):
+                self._scene.put_flow(field, columns(flow.to_world), flow.source(shutter, rate), flow.rests(shutter))
                 self._scene.put_field_box(field, box)
 
     def _keep_box(self, key, field, index):

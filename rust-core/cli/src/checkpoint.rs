@@ -23,12 +23,12 @@ pub(super) struct Keeper {
 impl Keeper {
     /// A keeper of one render's checkpoint; a file that is there already and is not to be resumed is an error.
     pub(super) fn new(path: PathBuf, identity: Identity, arguments: &CheckpointArguments) -> Result<Self> {
-        let pace = Pace::new(every(arguments.checkpoint_every)?);
-        if path.exists() && !arguments.resume {
+        let pace = Pace::new(every(arguments.keeping.checkpoint_every)?);
+        if path.exists() && !arguments.keeping.resume {
             let problem = format!("{} is there already; --resume goes on with it, or remove it", path.display());
             return Err(Error::setting("checkpoint", problem));
         }
-        Ok(Self { path, identity, resume: arguments.resume, pace })
+        Ok(Self { path, identity, resume: arguments.keeping.resume, pace })
     }
 
     /// What an earlier run has left.

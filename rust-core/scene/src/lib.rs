@@ -76,7 +76,7 @@ pub use medium::{HAZE_ANISOTROPY, Medium, Phase, VISIBILITY_CONTRAST};
 pub use mesh::{Mesh, MeshKey, Primvar, PrimvarInterpolation};
 pub use metal_index::MetalIndex;
 pub use meter::{Grid, GridArea, Measurand, Meter};
-pub use origin::Origin;
+pub use origin::{Origin, is_below};
 pub use points::{PointKey, PointShape, Points, point_key_problem};
 pub use regular::{open_file, read_file};
 pub use settings::{Background, Caustics, Crop, Filter, Guiding, Integrator, MOST_LIGHT_SAMPLES, Mist, Observer, Settings, parse_bytes};

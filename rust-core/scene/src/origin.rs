@@ -42,9 +42,14 @@ impl Origin {
     }
     /// Whether its path is another or lies below it.
     pub fn is_below(&self, root: &str) -> bool {
-        let root = root.trim_end_matches('/');
-        self.name.strip_prefix(root).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
+        is_below(&self.name, root)
     }
+}
+
+/// Whether a path is another or lies below it.
+pub fn is_below(path: &str, root: &str) -> bool {
+    let root = root.trim_end_matches('/');
+    path.strip_prefix(root).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
 }
 
 impl std::fmt::Display for Origin {

@@ -273,6 +273,20 @@ def test_velocities_let_volumes_flow(tmp_path, parts):
     assert greatest.max(0) - least.max(0) == pytest.approx([1.0, 0.0, 0.5], abs=1e-6)
 
 
+def test_boxes_that_flow_are_found_beside_meshes_that_cannot_be_used(tmp_path):
+    velocity = np.zeros((*CLOUD.shape, 3), np.float32)
+    velocity[..., 0] = 24.0
+    vdb_file.write(tmp_path / "cloud.vdb", ("density", CLOUD), ("vel", velocity), voxel=0.5)
+    broken = 'def Mesh "Torn" { int[] faceVertexCounts = [3]\n int[] faceVertexIndices = [0, 1, 7]\n point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]\n }\n'
+    text = SHUTTER + SMOKE + 'def Sphere "Ball" {}\n' + volume(fields="density vel")
+    whole, _ = load(tmp_path, text, file=False)
+    scene, told = load(tmp_path, broken + text, file=False)
+    assert any("Torn" in name for name, _ in gonio.load_usd(str(tmp_path / "stage.usda"), camera_light=False).diagnostics), told
+    boxes = [np.array(described["meshes"][-1]["points"]).reshape(-1, 3) for described in (whole, scene)]
+    assert len(scene["meshes"]) == len(whole["meshes"]) and boxes[1] == pytest.approx(boxes[0])
+    assert np.ptp(boxes[1], 0)[0] > CLOUD.shape[0] + 1
+
+
 def test_velocities_that_are_none_are_told(tmp_path):
     vdb_file.write(tmp_path / "cloud.vdb", ("density", CLOUD), ("vel", CLOUD))
     scene, told = load(tmp_path, SHUTTER + SMOKE + volume(fields="density vel"), file=False)

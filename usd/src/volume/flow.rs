@@ -2,7 +2,7 @@
 
 use super::{Field, Volume, grid};
 use gonio::Diagnostic;
-use gonio::scene::{FieldId, Flow, MaterialId, Scene, Transform};
+use gonio::scene::{FieldId, Flow, MeshId, Scene, Transform};
 use pyo3::prelude::*;
 use std::collections::HashMap;
 
@@ -13,6 +13,8 @@ const NAMES: [&str; 3] = ["velocity", "vel", "v"];
 #[derive(Clone, Debug)]
 struct Flowing {
     field: FieldId,
+    /// The box about it.
+    mesh: MeshId,
     /// One of vectors, or those of x, y and z.
     velocity: Vec<Field>,
     /// From the field's lattice to the space of the volume prim.
@@ -29,9 +31,10 @@ impl Flows {
         self.0.is_empty()
     }
 
-    /// Adds a field, with the map from its lattice to the space of the volume prim.
-    pub(super) fn add(&mut self, field: FieldId, velocity: &[Field], to_volume: Transform) {
-        self.0.push(Flowing { field, velocity: velocity.to_vec(), to_volume });
+    /// Adds the volume that comes next into a scene, with the map from its field's lattice to the space of the volume prim.
+    pub(super) fn add(&mut self, scene: &Scene, velocity: &[Field], to_volume: Transform) {
+        let (field, mesh) = (FieldId(scene.fields.len() as u32), MeshId(scene.meshes.len() as u32));
+        self.0.push(Flowing { field, mesh, velocity: velocity.to_vec(), to_volume });
     }
 }
 
@@ -54,9 +57,8 @@ impl Volume {
 /// Has the fields of a scene flow that have velocities, and widens their boxes; gives what cannot be used.
 pub(crate) fn put(py: Python<'_>, scene: &mut Scene, flows: &Flows, exposure: Exposure) -> Vec<Diagnostic> {
     let (mut told, mut known) = (Vec::new(), HashMap::new());
-    for Flowing { field, velocity, to_volume } in &flows.0 {
-        let id = *field;
-        let Some(field) = scene.fields.get_mut(id.index()) else { continue };
+    for Flowing { field, mesh, velocity, to_volume } in &flows.0 {
+        let Some(field) = scene.fields.get_mut(field.index()) else { continue };
         // Placements share their numbers.
         let key = (velocity[0].path.clone(), field.density.values.as_ptr());
         let flow = known.entry(key).or_insert_with(|| {
@@ -65,7 +67,7 @@ pub(crate) fn put(py: Python<'_>, scene: &mut Scene, flows: &Flows, exposure: Ex
         });
         field.flow.clone_from(flow);
         if field.flow.is_some() {
-            widen(scene, id);
+            scene.meshes[mesh.index()].points = field.mesh().points;
         }
     }
     told
@@ -84,15 +86,4 @@ fn read(
     let Some(back) = velocity[0].to_volume.inverse() else { return Err(named("it is flat".into())) };
     let rests = (-open / (close - open)) as f32;
     py.detach(|| Flow::of_grids(&grids, (&field.density, &back.after(to_volume)), close - open, rests)).map_err(named)
-}
-
-/// Has the box of a field hold it as it flows.
-fn widen(scene: &mut Scene, id: FieldId) {
-    let mesh = scene.fields[id.index()].mesh();
-    let holds = |material: &MaterialId| scene.materials.get(material.index()).is_some_and(|material| material.medium.field == Some(id));
-    let boxes: Vec<_> =
-        scene.instances.iter().filter(|set| set.materials.iter().any(holds)).filter_map(|set| set.geometry.mesh()).collect();
-    for number in boxes {
-        scene.meshes[number.index()].points = mesh.points.clone();
-    }
 }

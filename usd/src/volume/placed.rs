@@ -3,7 +3,7 @@
 use super::Filling;
 use crate::context::Context;
 use crate::roles::Role;
-use gonio::scene::{Field, FieldId, MatteName, Origin, Transform, Visibility};
+use gonio::scene::{Field, MatteName, Origin, Transform, Visibility};
 use std::rc::Rc;
 
 /// A volume that waits for the surfaces to be in the scene.
@@ -29,7 +29,7 @@ impl PlacedVolume {
         let Self { filling, to_world, origin, role, matte_name, .. } = self;
         for Filling { medium, field, is_even, velocity } in filling.iter() {
             if !velocity.is_empty() {
-                context.flows.add(FieldId(context.scene.fields.len() as u32), velocity, field.to_world);
+                context.flows.add(&context.scene, velocity, field.to_world);
             }
             let field = Field { origin: origin.clone(), to_world: to_world.after(&field.to_world), ..field.clone() };
             let scene = &mut context.scene;

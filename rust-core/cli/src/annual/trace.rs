@@ -64,8 +64,8 @@ pub(crate) fn annual(py: Python<'_>, options: &AnnualOptions, interrupted: &'sta
 fn checkpoints(options: &RoundArguments) -> Result<Checkpoints> {
     Ok(Checkpoints {
         path: options.checkpoint.clone(),
-        every: every(options.checkpoint_every)?,
-        resume: options.resume,
+        every: every(options.keeping.checkpoint_every)?,
+        resume: options.keeping.resume,
         part: options.part.as_deref().map(part_of).transpose()?,
         merge: options.merge.clone(),
     })

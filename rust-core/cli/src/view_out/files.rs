@@ -7,7 +7,7 @@ use crate::{
 };
 use gonio::{
     Result,
-    measure::GridReading,
+    measure::{GridReading, quoted},
     output::FalseColourScale,
     scene::Scene,
     view_out::{Layer, View, ViewLevel},
@@ -82,7 +82,7 @@ fn table(found: &Seen<'_>) -> String {
 }
 
 fn line(text: &mut String, name: &str, place: Option<[usize; 2]>, view: &View) {
-    let name = if name.contains(['"', ',']) { format!("\"{}\"", name.replace('"', "\"\"")) } else { name.to_owned() };
+    let name = quoted(name);
     let place = place.map_or_else(|| ",".to_owned(), |[row, column]| format!("{row},{column}"));
     let [x, y, z] = view.position;
     let distances: String = match view.distances_m {

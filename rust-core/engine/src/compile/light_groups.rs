@@ -49,9 +49,8 @@ pub(super) fn own_media(scene: &Scene, materials: &mut MaterialTable) -> Option<
     let mut owners: Vec<Option<u32>> = vec![None; materials.media.len()];
     let mut shared = None;
     for (number, set) in scene.instances.iter().enumerate() {
-        let numbers =
-            set.materials.iter().filter_map(|material| materials.numbers.get(material.index()).map(|_| materials.number(material.index())));
-        for row in numbers.flat_map(|number| materials.media_of(number)).collect::<Vec<_>>() {
+        let known = set.materials.iter().map(|material| material.index()).filter(|index| *index < materials.numbers.len());
+        for row in known.flat_map(|index| materials.media_of(materials.number(index))) {
             let owner = &mut owners[row as usize - 1];
             match *owner {
                 None => *owner = Some(number as u32),

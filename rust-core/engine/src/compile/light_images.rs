@@ -40,11 +40,11 @@ fn mean(image: &LightTexture) -> [f32; 3] {
 
 /// By light that has a place, the mean of the picture over it: read for that alone, where there is one.
 pub(super) fn picture_means(scene: &Scene) -> Vec<Option<[f32; 3]>> {
-    let luminaires = Scene { lights: scene.lights.iter().filter(|light| light.is_luminaire()).cloned().collect(), ..Scene::default() };
-    let pictures = Scene { textures: scene.textures.clone(), ..luminaires };
-    if pictures.lights.iter().all(|light| light.texture.is_none()) {
+    let lights: Vec<Light> = scene.lights.iter().filter(|light| light.is_luminaire() && light.texture.is_some()).cloned().collect();
+    if lights.is_empty() {
         return vec![None; scene.lights.len()];
     }
+    let pictures = Scene { lights, textures: scene.textures.clone(), ..Scene::default() };
     let stamps: Vec<Stamp> = scene.textures.iter().map(Stamp::of).collect();
     let loaded = light_images(&pictures, &stamps, &KeptImages::default());
     let images = loaded.finish(scene, &stamps, &mut KeptImages::default(), &mut Vec::new());

@@ -45,6 +45,6 @@ fn line(
 }
 
 /// A text as a field: in quotes where it holds what has a meaning.
-fn quoted(text: &str) -> String {
+pub fn quoted(text: &str) -> String {
     if text.contains(['"', ',', '\r', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }

@@ -28,7 +28,7 @@ mod tests;
 pub use coefficients::{
     DaylightCoefficients, Keeping, Kept, ROUNDS, Round, SkyTask, daylight_coefficients, is_of, sun_coefficients, trace_rounds,
 };
-pub use csv::csv;
+pub use csv::{csv, quoted};
 pub use picture::value_picture;
 pub use points::{GridPoints, MOST_POINTS};
 pub use reading::{GridReading, MeterReading, Reading, SensorGrid, SmallSources, Summary};

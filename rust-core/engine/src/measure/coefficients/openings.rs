@@ -2,26 +2,28 @@
 
 use crate::{
     compile::CompiledScene,
-    scene::{Instances, Scene},
+    scene::{Instances, Scene, is_below},
     transport::Openings,
 };
 use std::sync::Arc;
 
 /// Whether a set's placement is a prim of these or below one.
 pub fn is_of(set: &Instances, placement: usize, prims: &[String]) -> bool {
-    let name = set.matte_names.iter().rev().find(|name| name.first as usize <= placement).map_or("", |name| &name.object);
-    let is_below =
-        |name: &str, prim: &String| name.strip_prefix(prim.as_str()).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'));
-    prims.iter().any(|prim| is_below(&set.origin.name, prim) || is_below(name, prim))
+    let name = || set.matte_names.iter().rev().find(|name| name.first as usize <= placement);
+    let is_named = |prim: &String| name().is_some_and(|name| is_below(&name.object, prim));
+    prims.iter().any(|prim| set.origin.is_below(prim) || is_named(prim))
 }
 
 /// The groups of a scene's instances, the first of which has the number 1; `None` where there is no group.
 pub(super) fn openings(scene: &Scene, compiled: &CompiledScene, groups: &[Vec<String>]) -> Option<Arc<Openings>> {
+    if groups.is_empty() {
+        return None;
+    }
     let group = |set: usize, placement: usize| {
         let set = scene.instances.get(set)?;
         groups.iter().position(|prims| is_of(set, placement, prims)).map(|place| place as u32 + 1)
     };
     let of_instance = compiled.tables.geometry.instances.iter();
     let of_instance = of_instance.map(|row| group(row.set as usize, row.number as usize).unwrap_or_default()).collect();
-    (!groups.is_empty()).then(|| Arc::new(Openings { of_instance }))
+    Some(Arc::new(Openings { of_instance }))
 }

@@ -99,11 +99,20 @@ pub(crate) fn clamped<L: Lanes>(
     whole: Spectrum<L>,
     scattered: U<L>,
 ) -> (Spectrum<L>, Option<F<L>>) {
-    let value = transport.limits.clamped(whole, scattered);
-    if !clamps_late(tables, transport) {
-        return (value, None);
+    let held = transport.limits.clamped(whole, scattered);
+    match late_ceiling(tables, transport, scattered) {
+        Some(ceiling) => (sample.casts_shadow.select(whole, held), Some(ceiling)),
+        None => (held, None),
     }
-    (sample.casts_shadow.select(whole, value), Some(transport.limits.ceiling(scattered)))
+}
+
+/// What contributions may come to as they arrive, where they are held within their limits there.
+#[inline(always)]
+pub(crate) fn late_ceiling<L: Lanes>(tables: &Tables, transport: &Transport, scattered: U<L>) -> Option<F<L>> {
+    clamps_late(tables, transport).then(
+        #[inline(always)]
+        || transport.limits.ceiling(scattered),
+    )
 }
 
 /// Whether contributions are held within their limits as they arrive: what shadow rays pass dims them, and programs tell what meshes shine with.

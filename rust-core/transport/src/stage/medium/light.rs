@@ -12,7 +12,7 @@ use super::way::Way;
 use crate::accumulate::deposit::{Contribution, Deposits, code_of_found};
 use crate::accumulate::expression_sums::with_state;
 use crate::kernels;
-use crate::stage::light::nee::{clamped, send};
+use crate::stage::light::nee::{late_ceiling, send};
 use crate::stage::shade::catcher;
 use crate::state::queue::shadow_rays::{Along, ShadowRays};
 use crate::state::vertex::Interaction;
@@ -191,10 +191,15 @@ fn send_on<L: Lanes>(
     let weight = weight * tables.lights.scattered_factor(l, sample.light, l.u(event::VOLUME));
     let radiance = tables.lights.light(context.sample.wavelengths(l, way.core.slot), sample.light, sample.radiance);
     let whole = radiance * way.core.throughput * left * phase * (weight / sample.pdf);
-    let (late, ceiling) = clamped(tables, transport, sample, whole, way.bounces() + 1);
-    // Held before it is dimmed on its way: so fog is as bright as Cycles' within limits, where surfaces hold what arrives.
-    let early = transport.limits.clamped(whole, way.bounces() + 1);
-    let value = if tables.lights.any_shaded() { tables.lights.is_shaded(l, sample.light).select(late, early) } else { early };
+    // Held before it is dimmed on its way: so fog is as bright as Cycles' within limits, where surfaces hold what arrives. Only what programs tell of
+    // meshes that shine waits for that.
+    let held = transport.limits.clamped(whole, way.bounces() + 1);
+    let value = if tables.lights.any_shaded() {
+        (tables.lights.is_shaded(l, sample.light) & sample.casts_shadow).select(whole, held)
+    } else {
+        held
+    };
+    let ceiling = late_ceiling(tables, transport, way.bounces() + 1);
     let lit = usable & value.is_lit() & value.abs().max_component().is_finite();
     let flags = flags(context, way);
     let code = with_state(&transport.passes, code_of_found(flags, 0), flags);
