@@ -92,11 +92,12 @@ def job(monkeypatch, tmp_path):
     distributed.scheduler = types.SimpleNamespace(KilledWorker=type("KilledWorker", (Exception,), {}))
     monkeypatch.setitem(sys.modules, "distributed", distributed)
     from gonio.farm.job import Job
+    from gonio.farm.worker import render_part
 
     def make(frames, client, cancelled=lambda: False):
         said = []
         cluster = types.SimpleNamespace(client=client, level="scalar", cancelled=cancelled)
-        return Job(cluster, [lambda: "scene"] * frames, PARTS, tmp_path, lambda *words: said.append(words)), said
+        return Job(cluster, [lambda: "scene"] * frames, PARTS, render_part, tmp_path, lambda *words: said.append(words)), said
 
     return make
 

@@ -16,7 +16,10 @@ import gonio
 import pytest
 
 sys.path.append(str(environments.ROOT / "tests" / "shared"))
+import facade_room  # noqa: E402
+import numpy as np  # noqa: E402
 import pictures  # noqa: E402
+from wea_years import HOUR, write_wea  # noqa: E402
 
 pytestmark = [pytest.mark.validate, pytest.mark.timeout(1800)]
 
@@ -204,6 +207,58 @@ assert all(numpy.array_equal(numpy.asarray(film[name]), numpy.asarray(one[name])
         capture_output=True,
         text=True,
         timeout=120,
+    )
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.fixture(scope="module")
+def year(tmp_path_factory):
+    """A stage with two facades, and a weather file."""
+    folder = tmp_path_factory.mktemp("year")
+    light = (HOUR > 6) & (HOUR < 18)
+    write_wea(folder / "year.wea", np.where(np.abs(HOUR - 12) < 3, 40000, 0), np.where(light, 9000, 0))
+    (folder / "room.usda").write_text(facade_room.stage())
+    return folder
+
+
+def series(folder):
+    return [(folder / f"Floor_{name}.npy").read_bytes() for name in ("total", "direct")] + [(folder / "Floor_points.csv").read_text()]
+
+
+GROUPS = ("--group", "south=/Room/South", "--group", "west=/Room/West")
+
+
+@pytest.mark.parametrize(
+    "options", [(), ("--closed-variant", "/Room/South{blinds=closed}"), (*GROUPS, "--closed-variant", "south=/Room/South{blinds=closed}")]
+)
+def test_a_year_is_traced_by_a_cluster(farm, python, environment, year, tmp_path, options):
+    def line(folder, *more):
+        words = ["annual", year / "room.usda", "--weather", year / "year.wea", "--grid", "/Room/Floor", "--height", 0.8, "--spacing", 1, "-p", 512]
+        words = [python, "-m", "gonio.cli", *words, "-q", "-o", folder, *options, *more]
+        done = subprocess.run(list(map(str, words)), env=environment, capture_output=True, text=True, timeout=300)
+        assert done.returncode == 0, done.stderr
+        return done.stdout.replace(str(folder), "")
+
+    assert line(tmp_path / "one") == line(tmp_path / "farm", "--dask", farm.address)
+    assert series(tmp_path / "one") == series(tmp_path / "farm")
+
+
+def test_python_traces_years_on_a_cluster(farm, python, environment, year):
+    script = """
+import sys, pathlib, numpy, gonio, gonio.farm
+folder = pathlib.Path(sys.argv[2])
+weather = (folder / "year.wea").read_bytes()
+scene = gonio.load_usd(folder / "room.usda")
+positions = [(x, y, 0.8) for x in (1.0, 3.0) for y in (1.0, 3.0)]
+for position in positions:
+    scene.add_meter(position)
+asked = {"samples": 512, "groups": {"south": "/Room/South", "west": "/Room/West"}, "blinds": {"west": 0.1}, "closed": {"south": scene}}
+(one,) = gonio.annual(scene, weather, **asked)
+(farm,) = gonio.farm.annual(scene, weather, sys.argv[1], parts=5, **asked)
+assert numpy.array_equal(numpy.asarray(one.total), numpy.asarray(farm.total)) and one.figures == farm.figures
+"""
+    done = subprocess.run(
+        [python, "-c", script, farm.address, year], env=environment, capture_output=True, text=True, timeout=300
     )
     assert done.returncode == 0, done.stderr
 

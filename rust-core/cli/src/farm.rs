@@ -1,4 +1,5 @@
-//! `gonio render --dask`: the cluster and its workers are the Python side's (`gonio.farm`), the pictures are put together here.
+//! `gonio render --dask`: the cluster and its workers are the Python side's (`gonio.farm`), the pictures are put together here. `gonio annual --dask` has
+//! the same cluster.
 
 use super::{
     arguments::{Arguments, Command, RenderOptions},
@@ -55,7 +56,7 @@ pub(super) fn render(py: Python<'_>, options: &mut RenderOptions, words: &[Strin
     let writer = Writer::new(&options.files, Execution::detect())?;
     let folder = std::env::current_dir().map_err(|error| Error::io(Path::new("."), error))?;
     let inputs: Vec<PathBuf> = options.inputs().map(|path| folder.join(&*path)).collect();
-    let cluster = connect(py, options).map_err(|error| failure(py, &error))?;
+    let cluster = connect(py, options.farm.dask.as_deref()).map_err(|error| failure(py, &error))?;
     let stage = open(py, options)?;
     let frames = frames_of(options, stage.info().time_range.map(|[first, _]| first))?;
     check_targets(&files_of(options, &stage, frames[0])?)?;
@@ -120,14 +121,14 @@ fn write(options: &RenderOptions, writer: &Writer, files: &[PathBuf], first: &Lo
 }
 
 /// `gonio.farm.Cluster`, which asks now and then whether Ctrl-C was pressed.
-fn connect<'py>(py: Python<'py>, options: &RenderOptions) -> PyResult<Bound<'py, PyAny>> {
+pub(super) fn connect<'py>(py: Python<'py>, address: Option<&str>) -> PyResult<Bound<'py, PyAny>> {
     let cancelled = |_: &Bound<'_, PyTuple>, _: Option<&Bound<'_, PyDict>>| INTERRUPTED.load(Ordering::Relaxed);
     let cancelled = PyCFunction::new_closure(py, None, None, cancelled)?;
-    py.import("gonio.farm")?.call_method1("Cluster", (&options.farm.dask, cancelled))
+    py.import("gonio.farm")?.call_method1("Cluster", (address, cancelled))
 }
 
 /// A function that shows how far the whole is: from 0 to 1, in words, seconds left if that can be told, what goes on.
-fn reporting(quiet: bool) -> impl Fn(&Bound<'_, PyTuple>, Option<&Bound<'_, PyDict>>) -> PyResult<()> + Send + 'static {
+pub(super) fn reporting(quiet: bool) -> impl Fn(&Bound<'_, PyTuple>, Option<&Bound<'_, PyDict>>) -> PyResult<()> + Send + 'static {
     let reporter = Mutex::new(Reporter::new(quiet));
     move |arguments, _| {
         let (fraction, done, left, under_way): (f64, String, Option<f64>, String) = arguments.extract()?;
@@ -142,6 +143,6 @@ fn reporting(quiet: bool) -> impl Fn(&Bound<'_, PyTuple>, Option<&Bound<'_, PyDi
 }
 
 /// What the Python side complained about.
-fn failure(py: Python<'_>, error: &PyErr) -> Error {
+pub(super) fn failure(py: Python<'_>, error: &PyErr) -> Error {
     if INTERRUPTED.load(Ordering::Relaxed) { Error::Cancelled } else { Error::setting("dask", error.value(py).to_string()) }
 }

@@ -1,6 +1,9 @@
 //! `gonio annual-glare`.
 
-use super::{inputs::year, pictures, settings, tell_doubts};
+use super::{
+    inputs::{weather, year},
+    pictures, settings, tell_doubts,
+};
 use crate::{
     arguments::AnnualGlareOptions,
     file::{check_targets, print_path, put},
@@ -35,7 +38,7 @@ const EYE_HEIGHT: f64 = 1.2;
 
 /// Traces the eyes and rates their year.
 pub(crate) fn annual_glare(py: Python<'_>, options: &AnnualGlareOptions, interrupted: &'static AtomicBool) -> Result<i32> {
-    let (year, schedule) = year(&options.year)?;
+    let (year, schedule) = year(&options.year, &weather(&options.year)?)?;
     tell_doubts(&options.year, &year);
     let stage_options = stage_options(&options.stage)?;
     let stage = Stage::open(py, &options.stage.stage, &options.stage.state, &stage_options)?;

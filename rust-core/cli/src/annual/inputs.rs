@@ -42,7 +42,7 @@ impl Inputs {
                 return Err(Error::setting(name, problem));
             }
         }
-        let (year, schedule) = year(&options.year)?;
+        let (year, schedule) = year(&options.year, &weather(&options.year)?)?;
         let groups = (0..options.coefficients.len()).map(|index| group(options, index)).collect::<Result<Vec<_>>>()?;
         let names = grid_names(options);
         let grids = if options.groups {
@@ -54,10 +54,14 @@ impl Inputs {
     }
 }
 
+/// The bytes of the weather file.
+pub(super) fn weather(options: &YearArguments) -> Result<Vec<u8>> {
+    file::read(&options.weather, LONGEST_WEATHER, "weather file")
+}
+
 /// The weather, and which of its hours are used.
-pub(super) fn year(options: &YearArguments) -> Result<(Year, Schedule)> {
-    let bytes = file::read(&options.weather, LONGEST_WEATHER, "weather file")?;
-    let year = Year::read(&options.weather, &bytes).map_err(told)?;
+pub(super) fn year(options: &YearArguments, weather: &[u8]) -> Result<(Year, Schedule)> {
+    let year = Year::read(&options.weather, weather).map_err(told)?;
     let schedule = schedule(&options.schedule, &year)?;
     Ok((year, schedule))
 }

@@ -1,6 +1,7 @@
 //! `gonio annual` and `gonio annual-metrics`: a year of daylight.
 
 mod facades;
+mod farm;
 pub(super) mod glare;
 mod inputs;
 mod pictures;

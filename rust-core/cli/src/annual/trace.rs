@@ -3,6 +3,7 @@
 use super::{
     as_json, calculate,
     facades::facades,
+    farm,
     inputs::{self, Inputs, Named},
     pictures, series, settings, tell_doubts, text, whole,
 };
@@ -18,46 +19,78 @@ use crate::{
 };
 use gonio::{
     Diagnostic, Result,
-    annual::{AnnualGrid, AnnualTask, Checkpoints, GridsTraced, trace},
+    annual::{AnnualGrid, AnnualTask, Checkpoints, Facade, GridsTraced, trace},
     measure::Watch,
-    scene::{Integrator, Scene},
+    scene::{Integrator, Scene, with_images},
     sky::Frame,
 };
+use gonio_annual::{Schedule, Year};
 use gonio_simd::Execution;
 use gonio_usd::{Loaded, SampleTime, daylight::up_axis};
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 use std::sync::atomic::AtomicBool;
 
+/// What the year is calculated of.
+struct Task<'a> {
+    options: &'a AnnualOptions,
+    year: &'a Year,
+    schedule: &'a Schedule,
+    facades: &'a [Facade],
+    /// With open blinds, then those with closed ones.
+    scenes: &'a [Scene],
+    frame: Frame,
+    /// What the stage told.
+    told: &'a [Diagnostic],
+}
+
 /// Traces the stage's grids and calculates their year.
 pub(crate) fn annual(py: Python<'_>, options: &AnnualOptions, interrupted: &'static AtomicBool) -> Result<i32> {
-    let (year, schedule) = inputs::year(&options.year)?;
+    let weather = inputs::weather(&options.year)?;
+    let (year, schedule) = inputs::year(&options.year, &weather)?;
     tell_doubts(&options.year, &year);
     let (facades, states) = facades(&options.facades, &year)?;
-    let loaded = load(py, options, &[], interrupted)?;
-    let closed = states.iter().map(|state| Ok(load(py, options, state, interrupted)?.scene)).collect::<Result<Vec<Scene>>>()?;
-    let frame = Frame { up_axis: up_axis(loaded.info.up_axis), north_deg: options.year.north };
-    py.detach(|| {
-        let tell = |diagnostics: &[Diagnostic]| tell(&options.stage, options.quiet, diagnostics);
-        tell(&loaded.diagnostics);
-        let (grids, left_out) = AnnualGrid::all(&loaded.scene)?;
-        tell(&left_out);
-        if let Some(folder) = &options.year.output {
-            let files = |grid: &AnnualGrid| series::paths(folder, &grid.name).into_iter().chain(pictures::paths(folder, &grid.name));
-            check_targets(grids.iter().flat_map(files).collect::<Vec<_>>().iter())?;
-        }
-        let task = AnnualTask { year: &year, frame, factor: options.factor, facades: &facades, closed: &closed };
+    let Loaded { scene, diagnostics, info, .. } = load(py, options, &[], interrupted)?;
+    let mut scenes = vec![scene];
+    for state in &states {
+        scenes.push(load(py, options, state, interrupted)?.scene);
+    }
+    if options.farm.dask.is_some() {
+        scenes = scenes.iter().map(with_images).collect();
+    }
+    let frame = Frame { up_axis: up_axis(info.up_axis), north_deg: options.year.north };
+    let (year, schedule, facades) = (&year, &schedule, &facades[..]);
+    let task = Task { options, year, schedule, facades, scenes: &scenes, frame, told: &diagnostics };
+    if options.farm.dask.is_none() {
         let checkpoints = checkpoints(&options.rounds)?;
-        let follow = |watch: &mut Watch<'_>| trace(&loaded.scene, &grids, (&task, &checkpoints), Execution::detect(), watch);
-        let GridsTraced { groups, diagnostics } = watched(Reporter::new(options.quiet), None, interrupted, follow)?;
-        tell(&diagnostics);
-        let Some(groups) = groups else { return Ok(0) };
-        let named = |(grid, groups): (&AnnualGrid, _)| Named { name: grid.name.clone(), groups };
-        let named = grids.iter().zip(groups).map(named).collect();
-        let told: Vec<Diagnostic> = loaded.diagnostics.iter().chain(&left_out).chain(&diagnostics).cloned().collect();
-        let names: Vec<&str> = facades.iter().map(|facade| facade.name.as_str()).collect();
-        finish((options, &names), &Inputs { year: year.clone(), schedule, grids: named }, (&grids, &told), interrupted)
+        return py.detach(|| calculated(&task, &checkpoints, interrupted));
+    }
+    farm::traced(py, options, (&scenes, facades), (&weather, frame.up_axis), |merge| {
+        py.detach(|| calculated(&task, &Checkpoints { merge, ..Checkpoints::default() }, interrupted))
     })
+}
+
+/// Traces what checkpoints do not have, calculates, tells and writes.
+fn calculated(task: &Task<'_>, checkpoints: &Checkpoints, interrupted: &'static AtomicBool) -> Result<i32> {
+    let Task { options, year, schedule, facades, scenes, frame, told } = *task;
+    let tell = |diagnostics: &[Diagnostic]| tell(&options.stage, options.quiet, diagnostics);
+    tell(told);
+    let (grids, left_out) = AnnualGrid::all(&scenes[0])?;
+    tell(&left_out);
+    if let Some(folder) = &options.year.output {
+        let files = |grid: &AnnualGrid| series::paths(folder, &grid.name).into_iter().chain(pictures::paths(folder, &grid.name));
+        check_targets(grids.iter().flat_map(files).collect::<Vec<_>>().iter())?;
+    }
+    let traced = AnnualTask { year, frame, factor: options.factor, facades, closed: &scenes[1..] };
+    let follow = |watch: &mut Watch<'_>| trace(&scenes[0], &grids, (&traced, checkpoints), Execution::detect(), watch);
+    let GridsTraced { groups, diagnostics } = watched(Reporter::new(options.quiet), None, interrupted, follow)?;
+    tell(&diagnostics);
+    let Some(groups) = groups else { return Ok(0) };
+    let named = |(grid, groups): (&AnnualGrid, _)| Named { name: grid.name.clone(), groups };
+    let named = grids.iter().zip(groups).map(named).collect();
+    let told: Vec<Diagnostic> = told.iter().chain(&left_out).chain(&diagnostics).cloned().collect();
+    let names: Vec<&str> = facades.iter().map(|facade| facade.name.as_str()).collect();
+    finish((options, &names), &Inputs { year: year.clone(), schedule: schedule.clone(), grids: named }, (&grids, &told), interrupted)
 }
 
 /// Where rounds are kept.

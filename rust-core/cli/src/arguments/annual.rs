@@ -1,6 +1,7 @@
 //! What `gonio annual` and `gonio annual-metrics` take.
 
 use super::checkpoint::RoundArguments;
+use super::farm::YearFarmArguments;
 use super::measure::GridArguments;
 use super::number::{count, finite, mebibytes};
 use super::stage::StageArguments;
@@ -17,6 +18,7 @@ pub(super) const ANNUAL_EXAMPLES: &str = "Examples:
   gonio annual office.usda --weather oslo.epw --grid /Office/Floor --group south=/Office/South --group west=/Office/West --blinds 0.05
   gonio annual office.usda --weather oslo.epw --grid /Office/Floor --schedule 7-19 --metrics sda,ase
   gonio annual office.usda --weather oslo.epw --grid /Office/Floor --checkpoint office.rounds --resume
+  gonio annual office.usda --weather oslo.epw --grid /Office/Floor -p 65536 --dask tcp://farm:8786
   gonio annual office.usda --weather oslo.epw --grid /Office/Floor --lighting-power 7 --lighting-target 500
 
 The stage's lamps are dark and its sky and sun give way to the weather's. docs/annual.md takes you from a weather file to sDA in five minutes.";
@@ -186,6 +188,8 @@ pub(crate) struct AnnualOptions {
     pub(crate) textures: TextureArguments,
     #[command(flatten)]
     pub(crate) rounds: RoundArguments,
+    #[command(flatten)]
+    pub(crate) farm: YearFarmArguments,
     /// Write nothing but answers and errors.
     #[arg(long, short = 'q')]
     pub(crate) quiet: bool,

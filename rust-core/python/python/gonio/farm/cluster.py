@@ -12,12 +12,14 @@ from typing import Any
 
 from .._gonio import Cancelled, Error, __version__
 from .extra import PATIENCE, connect
-from .job import Job, Range, Report, Source
-from .source import REMEDY, Bundle, Stage, files_of, unseen
-from .worker import census
+from .job import Job, Part, Report, Source, Work
+from .source import REMEDY, Bundle, Stage, Year, files_of, unseen
+from .worker import annual_part, census, render_part
 
 # Parts that each of a worker's threads gets: enough for the quick to help out the slow.
 PARTS_A_THREAD = 4
+# The rounds of a year's tracing, of which a part has one at least.
+MOST_PARTS_OF_A_YEAR = 16
 # SIMD levels from the plainest to the widest.
 LEVELS = ("scalar", "neon", "sse4.2", "avx2", "avx512")
 
@@ -64,13 +66,21 @@ class Cluster:
                 raise Error(f"worker {address} cannot read {paths[0]}; {REMEDY}")
         return [functools.partial(Stage, arguments, folder, files, frame) for frame in frames]
 
-    def gather(self, sources: Sequence[Callable[[], Source]], parts: Sequence[Range], report: Report) -> Iterator[list[str]]:
+    def gather(self, sources: Sequence[Callable[[], Source]], parts: Sequence[Part], report: Report) -> Iterator[list[str]]:
         """For each frame, whose source a function gives when its turn comes, the files of its parts; they are gone when the next is asked for.
 
         Leaving the iterator cancels what is under way, and closes the connection.
         """
+        return self._gather(sources, parts, render_part, report)
+
+    def annual(self, year: Year, parts: int | None, report: Report) -> Iterator[list[str]]:
+        """As `gather` the files of a year's parts, which `gonio.annual` merges; without a number every thread of a worker gets four."""
+        count = min(MOST_PARTS_OF_A_YEAR, parts or self.parts_for(1))
+        return self._gather([lambda: year], [(number, count) for number in range(1, count + 1)], annual_part, report)
+
+    def _gather(self, sources: Sequence[Callable[[], Source]], parts: Sequence[Part], work: Work, report: Report) -> Iterator[list[str]]:
         with tempfile.TemporaryDirectory(prefix="gonio-farm-") as folder:
-            job = Job(self, sources, parts, Path(folder), report)
+            job = Job(self, sources, parts, work, Path(folder), report)
             try:
                 yield from job.frames()
             finally:
@@ -81,7 +91,7 @@ class Cluster:
         end = time.monotonic() + PATIENCE
         while not self.client.nthreads():
             if self.cancelled():
-                raise Cancelled("the render was cancelled")
+                raise Cancelled("the work was cancelled")
             if time.monotonic() > end:
                 raise Error(f"the Dask scheduler at {address} has no workers: start some with 'dask worker {address}'")
             time.sleep(0.2)

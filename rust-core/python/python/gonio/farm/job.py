@@ -1,4 +1,4 @@
-"""The parts of a render on their way through a cluster."""
+"""The parts of a render, or of a year of daylight, on their way through a cluster."""
 
 from __future__ import annotations
 
@@ -13,20 +13,22 @@ from typing import TYPE_CHECKING, Any
 
 from .._gonio import Cancelled, Error
 from .extra import require
-from .source import Bundle, Stage
-from .worker import hold, render_part
+from .source import Bundle, Stage, Year
+from .worker import hold
 
 if TYPE_CHECKING:
     from .cluster import Cluster
 
-# Tiles and samples of a part, first and behind the last.
-Range = tuple[Sequence[int], Sequence[int]]
-# What of a frame is sent to workers.
-Source = Stage | Bundle
+# A part of a picture: tiles and samples, first and behind the last. One of a year: its number and how many there are.
+Part = tuple[Sequence[int], Sequence[int]] | tuple[int, int]
+# What of a frame, or of a year, is sent to workers.
+Source = Stage | Bundle | Year
+# Does a part of a source at a SIMD level, on a worker.
+Work = Callable[[Any, Any, str], bytes]
 # Told how much is done, from 0 to 1 and in words, the seconds left if they can be told, and what goes on.
 Report = Callable[[float, str, float | None, str], Any]
 
-# Seconds between two looks at whether the render was cancelled.
+# Seconds between two looks at whether the work was cancelled.
 POLL = 0.2
 # Seconds between two questions for how many workers there are.
 WORKERS_POLL = 2.0
@@ -40,9 +42,16 @@ class Job:
     """
 
     def __init__(
-        self, cluster: Cluster, frames: Sequence[Callable[[], Source]], parts: Sequence[Range], folder: Path, report: Report
+        self,
+        cluster: Cluster,
+        frames: Sequence[Callable[[], Source]],
+        parts: Sequence[Part],
+        work: Work,
+        folder: Path,
+        report: Report,
     ) -> None:
-        self._cluster, self._frames, self._parts, self._folder, self._report = cluster, frames, parts, folder, report
+        self._cluster, self._frames, self._parts, self._work = cluster, frames, parts, work
+        self._folder, self._report = folder, report
         self._name = f"gonio-{uuid.uuid4().hex[:12]}"
         self._futures: dict[tuple[int, int], Any] = {}
         self._held: dict[int, Any] = {}
@@ -68,7 +77,7 @@ class Job:
         """Takes back what is under way; workers stop within a second."""
         futures, self._futures = [*self._futures.values(), *self._held.values()], {}
         if futures and self._cluster.client.status == "running":
-            self._cluster.client.cancel(futures, force=True, reason="the render was cancelled")
+            self._cluster.client.cancel(futures, force=True, reason="the work was cancelled")
 
     def _hand_out(self, frame: int) -> None:
         """Submits frames, the one that is waited for at least, until all workers have enough to do."""
@@ -84,10 +93,9 @@ class Job:
             warnings.simplefilter("ignore", UserWarning)
             source = client.submit(hold, self._frames[frame](), key=(f"{self._name}-scene", frame), **order)
         self._held[frame] = source
-        for number, (tiles, samples) in enumerate(self._parts):
-            part = {"tile_range": tuple(tiles), "sample_range": tuple(samples)}
+        for number, part in enumerate(self._parts):
             key = (f"{self._name}-part", frame, number)
-            future = client.submit(render_part, source, part, self._cluster.level, key=key, **order)
+            future = client.submit(self._work, source, part, self._cluster.level, key=key, **order)
             self._futures[frame, number] = future
             future.add_done_callback(functools.partial(self._arrived, (frame, number)))
 
@@ -106,7 +114,7 @@ class Job:
         """Waits for the next part, and says now and then how far the whole is."""
         while True:
             if self._cluster.cancelled():
-                raise Cancelled("the render was cancelled")
+                raise Cancelled("the work was cancelled")
             self._tell()
             try:
                 ticket, error = self._arrivals.get(timeout=POLL)
@@ -136,7 +144,7 @@ def _explained(error: BaseException) -> str:
     distributed = require()
     if isinstance(error, distributed.scheduler.KilledWorker):
         count, last = error.allowed_failures + 1, error.last_worker.address
-        return f"a part of the render was lost with {count} workers, the last {last}: do they have memory enough?"
+        return f"a part of the work was lost with {count} workers, the last {last}: do they have memory enough?"
     if isinstance(error, distributed.CancelledError):
-        return f"the cluster has given up the render ({error})"
+        return f"the cluster has given up the work ({error})"
     return str(error) or type(error).__name__

@@ -5,9 +5,10 @@ from __future__ import annotations
 import os
 import tempfile
 import uuid
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 from .._gonio import Error, _files_of_stage, _scene
 from ..scene import Scene
@@ -64,6 +65,39 @@ class Bundle:
             path = Path(folder, "scene.gonio")
             path.write_bytes(self.data)
             return Scene.load(path)
+
+
+@dataclass(frozen=True)
+class Year:
+    """What of a year of daylight is traced, as bytes: scenes as bundles, the one with open blinds first, and the keywords of `gonio.annual` that tracing knows."""
+
+    scenes: Sequence[Bundle]
+    weather: bytes
+    # With `closed` scenes by their places in `scenes`: one of all groups, or of each by name.
+    tracing: Mapping[str, Any]
+
+    @staticmethod
+    def of(scene: Scene, weather: bytes, asked: Mapping[str, Any]) -> Year:
+        """The year that `gonio.annual` makes of a scene with some keywords; `gonio.Error` where an image cannot be sent."""
+        closed = asked.get("closed")
+        by_name = closed if isinstance(closed, Mapping) else {"": closed}
+        others = {id(other): other for other in by_name.values() if other is not None}
+        places = {key: place for place, key in enumerate(others, 1)}
+        tracing = {name: asked[name] for name in ("samples", "division", "groups", "up", "north") if name in asked}
+        if others:
+            numbers = {name: places[id(other)] for name, other in by_name.items()}
+            tracing["closed"] = numbers if closed is by_name else numbers[""]
+        return Year([Bundle.of(each) for each in (scene, *others.values())], weather, tracing)
+
+    def unpacked(self) -> tuple[Scene, dict[str, Any]]:
+        """The scene with open blinds, and keywords for `gonio.annual`."""
+        scenes = [bundle.scene() for bundle in self.scenes]
+        tracing = dict(self.tracing)
+        if isinstance(closed := tracing.get("closed"), Mapping):
+            tracing["closed"] = {name: scenes[place] for name, place in closed.items()}
+        elif closed:
+            tracing["closed"] = scenes[closed]
+        return scenes[0], tracing
 
 
 def unseen(paths: Iterable[str]) -> list[str]:
