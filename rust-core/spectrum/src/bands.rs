@@ -81,6 +81,15 @@ impl Bands {
         edges(self.width_nm).zip(&self.daylight).map(relative).collect()
     }
 
+    /// By band: the mean of functions of the wavelength in nm (a reflectance, spectra over D65's), by D65's light.
+    pub fn filter<const N: usize>(&self, values: impl Fn(f64) -> [f64; N]) -> Vec<[f32; N]> {
+        let weighed = Integral::new(&[], |nm| values(nm).map(|value| value * white::d65(nm)));
+        let mean = |([from, to], daylight): ([f64; 2], &f64)| {
+            weighed.between(from, to).map(|sum| (sum / (self.width_nm * EFFICACY * daylight)) as f32)
+        };
+        edges(self.width_nm).zip(&self.daylight).map(mean).collect()
+    }
+
     /// What a linear Rec.709 colour of any size is in a band, relative to D65: as lanes have it that know wavelengths.
     pub fn of_colour(&self, band: usize, colour: [f32; 3]) -> f32 {
         let nm = self.centre(band) as f32;

@@ -44,9 +44,14 @@ pub(crate) fn daylight(kelvin: f64) -> impl Fn(f64) -> f64 {
     let m1 = rounded((-1.3515 - 1.7703 * x + 5.9114 * y) / m);
     let m2 = rounded((0.0300 - 31.4424 * x + 30.0717 * y) / m);
     move |nm| {
-        let [s0, s1, s2] = COMPONENTS.all(nm);
+        let [s0, s1, s2] = daylight_components(nm);
         s0 + m1 * s1 + m2 * s2
     }
+}
+
+/// S0, S1 and S2, which daylight is made of (CIE 15, table 6), at a wavelength in nm.
+pub(crate) fn daylight_components(nm: f64) -> [f64; 3] {
+    COMPONENTS.all(nm)
 }
 
 /// CIE 13.3's reference at the points of a sum: a blackbody below 5000 K, daylight from there on.

@@ -16,8 +16,9 @@ pub(crate) const XYZ_TO_REC709: [[f64; 3]; 3] = [
     [0.055_630_079_696_994, -0.203_976_958_888_977, 1.056_971_514_242_879],
 ];
 
-/// At whole nanometres: D65's power, x̄, ȳ and z̄ times it, and linear Rec.709 of these.
+/// The luminance of D65's table; at whole nanometres D65's power, x̄, ȳ and z̄ times it, and linear Rec.709 of these.
 struct White {
+    luminance: f64,
     power: Table,
     observed: Table,
     colour: Table,
@@ -36,6 +37,7 @@ static WHITE: LazyLock<White> = LazyLock::new(|| {
     let unscaled = columns(&colour);
     let white = Integral::new(&[], |nm| unscaled.all::<3>(nm)).all();
     White {
+        luminance,
         power: Table::of(first, 1.0, vec![wavelengths.iter().map(|nm| power(*nm)).collect()]),
         observed: columns(&cie_1931),
         colour: columns(&|nm| {
@@ -48,6 +50,11 @@ static WHITE: LazyLock<White> = LazyLock::new(|| {
 /// D65's power per nanometre, linear between whole nanometres; its luminance, the integral of ȳ times it, is 1.
 pub(crate) fn d65(nm: f64) -> f64 {
     WHITE.power.at(0, nm)
+}
+
+/// D65's power per nanometre from 300 to 830 nm, where the integral of ȳ times it is 1 over 380 to 780 nm.
+pub fn d65_power(nm: f64) -> f64 {
+    daylight(nominal_daylight(65.0))(nm) / WHITE.luminance
 }
 
 /// x̄, ȳ, z̄, linear between whole nanometres.

@@ -2,6 +2,7 @@
 
 mod bad;
 mod bands;
+mod colour_spectra;
 mod figures;
 mod reading;
 mod triples;
