@@ -1,8 +1,11 @@
 //! Doors of light with wavelengths on lanes, against the scalar forms of `gonio-spectrum`.
 
-use gonio::{compile::compile, scene::Scene};
-use gonio_simd::{Execution, Lanes, Rgb, Spectrum, WavelengthTable, Wavelengths, dispatch};
-use gonio_spectrum::{REC709_TO_REC2020, Triples, triples, upsampling};
+use gonio::{
+    compile::compile,
+    scene::{ColourSpectra, Light, Scene},
+};
+use gonio_simd::{Execution, FIRST_COLOUR_SPECTRA, Lanes, Rgb, Spectrum, WavelengthTable, Wavelengths, dispatch};
+use gonio_spectrum::{REC709_TO_REC2020, Triples, named, triples, upsampling};
 use std::sync::{Arc, atomic::AtomicBool};
 
 fn table() -> Arc<WavelengthTable> {
@@ -59,6 +62,48 @@ fn daylight_is_white_at_each_rotation() {
         for rotation in 0..Triples::COUNT as u32 {
             let colour = dispatch!(execution, l => seen(l, &table, rotation));
             assert!(colour.iter().all(|part| (part - 1.0).abs() < 1e-5), "{}: {colour:?} at {rotation}", execution.name());
+        }
+    }
+}
+
+/// What lights of a colour send at a rotation: the first lane by the first number of a spectrum, the others by the second.
+#[inline(always)]
+fn sent<L: Lanes>(l: L, table: &WavelengthTable, rotation: u32, [first, others]: [u32; 2], colour: [f32; 3]) -> [[f32; 3]; 2] {
+    let numbers = l.iota().lt(1).select(l.u(first), l.u(others));
+    let light = Wavelengths::new(Some(table), l.u(rotation)).lamp(numbers, Rgb::splat(l, colour)).to_rgb();
+    let lanes = [light.r, light.g, light.b].map(|part| part.to_array());
+    [0, L::COUNT - 1].map(|lane| lanes.map(|part| part[lane]))
+}
+
+/// Skies beside lamps: the sum of their colours' spectra, of which nothing is below zero.
+#[test]
+fn lights_send_the_spectra_of_their_colours() {
+    let daylight = ColourSpectra::daylight();
+    let sky = Light { colour_spectra: Some(Arc::new(daylight.clone())), ..Light::default() };
+    let lamp = named("LED-B3").expect("a name").expect("a spectrum");
+    let lamp = Light { spectrum: Some(Arc::new(lamp.into())), ..Light::default() };
+    let mut scene = Scene { lights: vec![lamp, sky], ..Scene::default() };
+    scene.settings.spectral = true;
+    let compiled = compile(&scene, None, &AtomicBool::new(false)).expect("two lights");
+    let table = compiled.tables.wavelengths.clone().expect("light with wavelengths");
+    let parts = [0, 1, 2].map(|part| triples().filter(|nm| daylight.at(nm)[part]));
+    for execution in Execution::all() {
+        for colour in [[1.0, 1.0, 1.0], [0.7, 0.9, 1.6], [2.8, 0.6, 0.0], [-2.8, -0.6, 0.0]] {
+            for rotation in [0, 77, 256, 511] {
+                let [first, last] = dispatch!(execution, l => sent(l, &table, rotation, [FIRST_COLOUR_SPECTRA, 1], colour));
+                let [lamp, _] = dispatch!(execution, l => sent(l, &table, rotation, [1, 1], colour));
+                let sign = if colour[0] < 0.0 { -1.0 } else { 1.0 };
+                for k in 0..3 {
+                    let sum: f32 = (0..3).map(|part| colour[part] * parts[part][rotation as usize][k]).sum();
+                    let expected = (sign * sum).max(0.0) * sign;
+                    assert!(
+                        (first[k] - expected).abs() < 1e-5,
+                        "{}: {colour:?} at {rotation}: {first:?}, expected {expected}",
+                        execution.name()
+                    );
+                }
+                assert!(last == lamp || last == first, "{}: {last:?}, expected {lamp:?}", execution.name());
+            }
         }
     }
 }

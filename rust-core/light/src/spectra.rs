@@ -4,7 +4,8 @@ use super::table::LightTable;
 use gonio_simd::{Lanes, Rgb, Spectrum, U, Wavelengths};
 
 impl LightTable {
-    /// Gives lights spectra, one number a light, counted from 1; 0 is none. None at all where no light has one.
+    /// Gives lights spectra, one number a light, counted from 1; 0 is none. From [`gonio_simd::FIRST_COLOUR_SPECTRA`] on they are spectra of colours. None
+    /// at all where no light has one.
     pub fn set_spectra(&mut self, numbers: Vec<u32>) {
         debug_assert!(numbers.is_empty() || numbers.len() == self.count);
         self.spectra = numbers;

@@ -61,6 +61,7 @@ pub use gonio_formats::photometry::{Opening, OpeningShape, PhotometricType};
 pub use gonio_nodes::{
     Channel, Graph, Input, LightPathValue, Node, NodeId, Operation, Quantity, Space, TextureFilter, TextureId, WrapMode,
 };
+pub use gonio_spectrum::ColourSpectra;
 pub use gonio_volume::{BRICK_EDGE, BRICK_VOXELS};
 pub use goniogram::Goniogram;
 pub use instance::{Geometry, Instances, Visibility};

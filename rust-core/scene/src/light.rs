@@ -2,6 +2,7 @@
 
 use super::lamp_spectrum::LampSpectrum;
 use super::{Goniogram, LightFilter, LightQuantity, Linking, Opening, Origin, TextureId, Transform, Visibility};
+use gonio_spectrum::ColourSpectra;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -182,6 +183,9 @@ pub struct Light {
     /// The spectrum of what it sends, whose colour takes the place of the emission's; none: the spectrum is made of the colour.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spectrum: Option<Arc<LampSpectrum>>,
+    /// Where light has wavelengths and it has no spectrum: the spectra of its colour's red, green and blue. Sun and sky have them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub colour_spectra: Option<Arc<ColourSpectra>>,
     /// Narrowing of the beam.
     pub shaping: Shaping,
     /// A spot's cone.
@@ -240,6 +244,7 @@ impl Default for Light {
             emission: Emission::default(),
             quantity: None,
             spectrum: None,
+            colour_spectra: None,
             dimming: whole(),
             maintenance: whole(),
             shaping: Shaping::default(),

@@ -8,7 +8,7 @@ mod upsampled;
 mod wavelengths;
 
 pub use columns::{SpectrumColumns, SpectrumItems};
-pub use wavelengths::{Hero, WavelengthColumn, WavelengthTable, Wavelengths};
+pub use wavelengths::{FIRST_COLOUR_SPECTRA, Hero, WavelengthColumn, WavelengthTable, Wavelengths};
 
 use crate::{F, Lanes, M, Rgb, Select};
 use core::ops::{Add, AddAssign, Div, Mul, Sub};

@@ -2,7 +2,7 @@
 //!
 //! Paths of all bands are the same as far as materials let them, so that what they bring differs by the spectra of lamps and surfaces alone.
 
-use super::compiled::CompiledScene;
+use super::{colour_spectra::column_of_band, compiled::CompiledScene, wavelengths::column};
 use crate::{
     colour::luminance_of_pixel,
     error::{Error, Result},
@@ -24,6 +24,8 @@ pub(crate) struct BandedScene {
     media: MediumTable,
     /// By lamp, its spectrum in each band relative to D65's.
     lamps: Vec<Vec<f32>>,
+    /// Of sun and sky, by set of spectra what red, green and blue are in each band, relative to D65's.
+    skies: Vec<Vec<[f32; 3]>>,
 }
 
 impl BandedScene {
@@ -41,7 +43,8 @@ impl BandedScene {
 
     fn with_lamps(scene: CompiledScene, bands: &'static Bands, lamps: Vec<Vec<f32>>) -> Self {
         let media = scene.tables.materials.media.clone();
-        Self { scene: Arc::new(scene), bands, media, lamps }
+        let skies = scene.spectra.of_colours.by_band(bands);
+        Self { scene: Arc::new(scene), bands, media, lamps, skies }
     }
 
     /// The scene as it is in a band, until the next call.
@@ -52,7 +55,8 @@ impl BandedScene {
         let busy = || Error::Internal("the scene of one band of wavelengths is in use while the next is asked for".to_owned());
         let scene = Arc::get_mut(&mut self.scene).ok_or_else(busy)?;
         let count = if scene.tables.materials.surfaces.iter().any(|surface| surface.surface.lobes.disperses) { BENT } else { 1 };
-        let table = scene.spectra.table_of_band((self.bands, band), &self.lamps, &scene.metals, count);
+        let mut table = scene.spectra.table_of_band((self.bands, band), &self.lamps, &scene.metals, count);
+        table.colour_spectra = column(&column_of_band(&self.skies, band, count));
         scene.tables.wavelengths = Some(Arc::new(table));
         scene.tables.materials.media = self.media.seen(|colour| [self.bands.of_colour(band, colour); 3]);
         Ok(&self.scene)
@@ -91,7 +95,12 @@ impl BandedScene {
         }
         let luminance = luminance_of_pixel(light.emission.radiance);
         let colour = light.emission.radiance.map(|part| part / luminance);
-        light.texture.is_none().then(|| (0..self.bands.count()).map(|band| self.bands.of_colour(band, colour)).collect())
+        let of_sky = self.scene.spectra.of_colours_of(number).and_then(|set| self.skies.get(set));
+        let in_band = |band: usize| match of_sky {
+            Some(parts) => parts[band].iter().zip(colour).map(|(part, value)| part * value).sum::<f32>().max(0.0),
+            None => self.bands.of_colour(band, colour),
+        };
+        light.texture.is_none().then(|| (0..self.bands.count()).map(in_band).collect())
     }
 }
 

@@ -8,6 +8,7 @@ mod bounds;
 mod cancel;
 mod casters;
 mod catchers;
+mod colour_spectra;
 mod compiled;
 mod cut;
 mod dice;

@@ -1,6 +1,6 @@
 //! What the wavelengths of paths mean: the table that kernels read, and the spectra of lamps.
 
-use super::{metals::Metals, shining::emission_of_colour};
+use super::{colour_spectra::SetsOfSpectra, metals::Metals, shining::emission_of_colour};
 use crate::{
     colour::luminance_of_pixel,
     error::Diagnostic,
@@ -15,7 +15,9 @@ use std::sync::{Arc, OnceLock};
 #[derive(Clone, Debug, Default)]
 pub(super) struct LampSpectra {
     spectra: Vec<Lamp>,
-    /// By light of the scene, the number of its spectrum counted from 1; 0 is none.
+    /// Of sun and sky by their colours, where light has wavelengths.
+    pub(super) of_colours: SetsOfSpectra,
+    /// By light of the scene, the number of its spectrum counted from 1, or of its colours; 0 is none.
     of_light: Vec<u32>,
     /// The same by material, of what its surface sends.
     of_material: Vec<u32>,
@@ -44,7 +46,11 @@ impl LampSpectra {
     pub(super) fn of(scene: &Scene, diagnostics: &mut Vec<Diagnostic>) -> Self {
         let mut all = Self::default();
         for light in &scene.lights {
-            let number = light.spectrum.as_ref().map_or(0, |spectrum| all.number(&light.origin, spectrum, diagnostics));
+            let number = match &light.spectrum {
+                Some(spectrum) => all.number(&light.origin, spectrum, diagnostics),
+                None if scene.settings.spectral => all.of_colours.number(light, diagnostics),
+                None => 0,
+            };
             all.of_light.push(number);
         }
         for material in &scene.materials {
@@ -92,7 +98,7 @@ impl LampSpectra {
 
     /// Lets the lights of a table shine by spectra: those of the scene's lights that the first belong to, and of the triangles behind them by their materials.
     pub(super) fn set(&self, table: &mut Arc<LightTable>, of_light: &[u32], of_triangle: impl Fn(usize) -> u32) {
-        if self.spectra.is_empty() {
+        if self.spectra.is_empty() && self.of_colours.is_empty() {
             return;
         }
         let of_lamp = |light: u32| self.of_light.get(light as usize).copied().unwrap_or(0);
@@ -108,12 +114,17 @@ impl LampSpectra {
         }
         let plain = without_lamps();
         let metals = metals.by_rotation();
-        if self.spectra.is_empty() && metals.is_empty() && scene.settings.observer.is_luminous() {
+        if self.spectra.is_empty() && self.of_colours.is_empty() && metals.is_empty() && scene.settings.observer.is_luminous() {
             return Some(plain.clone());
         }
         let lamps: Vec<f32> = self.spectra.iter().flat_map(|lamp| &lamp.values).copied().flat_map(quad).collect();
-        let mut table =
-            WavelengthTable { lamps: column(&lamps), lamp_colours: self.colours(), metals: column(&metals), ..(**plain).clone() };
+        let mut table = WavelengthTable {
+            lamps: rows(lamps, Triples::COUNT),
+            lamp_colours: self.colours(),
+            metals: column(&metals),
+            ..(**plain).clone()
+        };
+        table.colour_spectra = column(&self.of_colours.by_rotation());
         if scene.settings.observer == Observer::Melanopic {
             let grey = |value: f32| quad([value; 3]);
             table.film = column(&triples().melanopic().into_iter().flatten().flat_map(grey).collect::<Vec<f32>>());
@@ -138,7 +149,7 @@ impl LampSpectra {
             rotations: count as u32,
             places: column(&places),
             film: column(&quad([1.0 / 3.0; 3]).repeat(3 * count)),
-            lamps: column(&lamps),
+            lamps: rows(lamps, count),
             lamp_colours: self.colours(),
             metals: column(&metals.at(&wavelengths)),
             ..(**without_lamps()).clone()
@@ -147,7 +158,13 @@ impl LampSpectra {
 
     /// The spectrum of a light of the scene, by its place among them all.
     pub(super) fn of_light(&self, number: usize) -> Option<usize> {
-        (*self.of_light.get(number)? as usize).checked_sub(1)
+        let place = (*self.of_light.get(number)? as usize).checked_sub(1)?;
+        (place < self.spectra.len()).then_some(place)
+    }
+
+    /// The spectra of a light's colours, by their place among them all.
+    pub(super) fn of_colours_of(&self, number: usize) -> Option<usize> {
+        SetsOfSpectra::place(*self.of_light.get(number)?)
     }
 
     /// The spectrum of a material of the scene, by its place among them all.
@@ -166,7 +183,7 @@ impl LampSpectra {
     }
 
     fn colours(&self) -> Column {
-        column(&self.spectra.iter().flat_map(|lamp| quad(lamp.colour)).collect::<Vec<f32>>())
+        rows(self.spectra.iter().flat_map(|lamp| quad(lamp.colour)).collect(), 1)
     }
 }
 
@@ -203,15 +220,21 @@ fn plain() -> WavelengthTable {
         resolution: upsampling.resolution as u32,
         lamps: Column::new(0),
         lamp_colours: Column::new(0),
+        colour_spectra: Column::new(0),
         metals: Column::new(0),
     }
+}
+
+/// Rows of lamps, of so many quads each: one at least, for lanes without a lamp read the first where others have one or a sky.
+fn rows(values: Vec<f32>, quads: usize) -> Column {
+    column(if values.is_empty() { vec![0.0; 4 * quads] } else { values }.as_slice())
 }
 
 fn quad([a, b, c]: [f32; 3]) -> [f32; 4] {
     [a, b, c, 0.0]
 }
 
-fn column(values: &[f32]) -> Column {
+pub(super) fn column(values: &[f32]) -> Column {
     let mut column = Column::new(values.len());
     column[..values.len()].copy_from_slice(values);
     column

@@ -11,6 +11,9 @@ use crate::{Column, F, Lanes, Rgb, Select, U};
 /// Words of an item of the tables.
 pub(super) const WORDS: u32 = 4;
 
+/// From this number on spectra are those of a light's colours, not a lamp's own.
+pub const FIRST_COLOUR_SPECTRA: u32 = 1 << 24;
+
 /// What three wavelengths mean, for each rotation of them; built by the engine.
 #[derive(Clone, Debug, Default)]
 pub struct WavelengthTable {
@@ -28,6 +31,8 @@ pub struct WavelengthTable {
     pub lamps: Column,
     /// Linear Rec.709 of those spectra: a quad a lamp.
     pub lamp_colours: Column,
+    /// What red, green and blue of a light are, over D65's: a quad each for each rotation of each set.
+    pub colour_spectra: Column,
     /// Indices of metals: for each rotation of each metal a quad of n and one of k.
     pub metals: Column,
 }
@@ -115,10 +120,15 @@ impl<'a, L: Lanes> Wavelengths<'a, L> {
     /// Door for light: what lamps send whose colour is given, by the spectra of these numbers; 0 is none.
     #[inline(always)]
     pub fn lamp(self, spectrum: U<L>, colour: Rgb<L>) -> Spectrum<L> {
-        match self.table {
-            Some(table) if spectrum.ne(0).any() => of_lamps(table, self.rotation, spectrum, colour),
-            _ => self.radiance(colour),
+        let Some(table) = self.table.filter(|_| spectrum.ne(0).any()) else { return self.radiance(colour) };
+        let is_lamp = spectrum.lt(FIRST_COLOUR_SPECTRA);
+        if is_lamp.all() {
+            return of_lamps(table, self.rotation, spectrum, colour);
         }
+        let none = spectrum.lanes().u(0);
+        let of_set = of_colours(table, self.rotation, is_lamp.select(none, spectrum - FIRST_COLOUR_SPECTRA), colour);
+        let of_lamp = of_lamps(table, self.rotation, is_lamp.select(spectrum, none), colour);
+        Spectrum::select(is_lamp, of_lamp, of_set)
     }
     /// The index of the metal of a row: n and k, where light has wavelengths.
     #[inline(always)]
@@ -225,6 +235,24 @@ fn of_lamps<L: Lanes>(table: &WavelengthTable, rotation: U<L>, spectrum: U<L>, c
             let filter = Rgb::select(with, filter, colour);
             let sent = upsampled(table, rotation, filter, f32::MAX);
             Spectrum::select(with, sent * Spectrum { r, g, b }, sent)
+        },
+    )
+}
+
+/// What lights send by the spectra of their colours, of these sets. No light takes away at one wavelength what it gives at others.
+#[inline(never)]
+fn of_colours<L: Lanes>(table: &WavelengthTable, rotation: U<L>, set: U<L>, colour: Rgb<L>) -> Spectrum<L> {
+    rotation.lanes().vectorize(
+        #[inline(always)]
+        || {
+            let l = rotation.lanes();
+            let first = (set * table.rotations + rotation) * (3 * WORDS);
+            let mut sum = Spectrum::zero(l);
+            for (component, value) in [colour.r, colour.g, colour.b].into_iter().enumerate() {
+                let [r, g, b, _] = l.gather_quads(&table.colour_spectra, first + WORDS * component as u32);
+                sum = Spectrum { r, g, b }.mul_add(value, sum);
+            }
+            sum.part_of(Spectrum::constant(colour.luminance()))
         },
     )
 }
