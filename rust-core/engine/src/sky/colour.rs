@@ -26,18 +26,44 @@ pub(super) fn of_sky(model: &HosekWilkie, clear: f64, up: f64, angle: f64) -> [f
     blue.map(|value| 1.0 + clear * (value - 1.0))
 }
 
-/// The colour of the sun behind an air mass of a turbidity (Preetham's, 1 is clean air).
-pub(super) fn of_sun(air_mass: f64, turbidity: f64) -> [f64; 3] {
-    let beta = (0.046_08 * turbidity - 0.045_86).max(0.0);
-    let mut xyz = [0.0; 3];
-    for nanometres in (380..=780).step_by(5).map(f64::from) {
+/// The air that the sun shines through.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct SunlitAir {
+    /// 1 at the zenith at sea level.
+    pub(super) mass: f64,
+    /// Preetham's, 1 is clean air.
+    pub(super) turbidity: f64,
+}
+
+impl SunlitAir {
+    /// What air and haze let through at a wavelength, without ozone and water.
+    pub(super) fn transmittance(self, nanometres: f64) -> f64 {
+        let beta = (0.046_08 * self.turbidity - 0.045_86).max(0.0);
         let micrometres = nanometres * 1e-3;
         let thickness = 0.008_735 * micrometres.powf(-4.08) + beta * micrometres.powf(-1.3);
-        let strength = planck(nanometres) * (-thickness * air_mass).exp();
-        let seen = cie_1931(nanometres);
-        xyz = std::array::from_fn(|i| xyz[i] + strength * seen[i]);
+        (-thickness * self.mass).exp()
     }
-    normalized(to_rec709(xyz))
+
+    /// The colour of the sun behind it, of luminance 1; low suns lie beyond Rec.709.
+    pub(super) fn sun_colour(self) -> [f64; 3] {
+        let rgb = self.unscaled_sun_colour();
+        rgb.map(|value| value / luminance(rgb))
+    }
+
+    fn unscaled_sun_colour(self) -> [f64; 3] {
+        let mut xyz = [0.0; 3];
+        for nanometres in (380..=780).step_by(5).map(f64::from) {
+            let strength = planck(nanometres) * self.transmittance(nanometres);
+            let seen = cie_1931(nanometres);
+            xyz = std::array::from_fn(|i| xyz[i] + strength * seen[i]);
+        }
+        to_rec709(xyz)
+    }
+}
+
+/// The colour of the sun behind air.
+pub(super) fn of_sun(air: SunlitAir) -> [f64; 3] {
+    normalized(air.unscaled_sun_colour())
 }
 
 /// Irradiance outside the atmosphere by a black body as hot as the sun and seen as large, W/(m² nm).

@@ -1,9 +1,13 @@
 //! From a place, a moment and the weather to luminances.
 
 use super::{
-    Air, CieSky, Clearness, HosekWilkie, Irradiance, Moment, PerezSky, Place, SkyModel, SunPosition, clear_sky_irradiance, colour,
-    diffuse_efficacy, direct_efficacy, distribution::Distribution, extraterrestrial_irradiance, relative_air_mass, sun_position,
-    weather::USUAL_DEW_POINT_C, within,
+    Air, CieSky, Clearness, HosekWilkie, Irradiance, Moment, PerezSky, Place, SkyModel, SunPosition, clear_sky_irradiance,
+    colour::{self, SunlitAir},
+    diffuse_efficacy, direct_efficacy,
+    distribution::Distribution,
+    extraterrestrial_irradiance, relative_air_mass, sun_position,
+    weather::USUAL_DEW_POINT_C,
+    within,
 };
 use crate::{Error, Result};
 use gonio_formats::weather::Weather;
@@ -132,6 +136,7 @@ impl Daylight {
         let (zenith_angle, air_mass) = (sun.zenith_angle(), relative_air_mass(sun.elevation_deg));
         let clearness = Clearness::new(&irradiance, zenith_angle, air_mass, normal);
         let blue = HosekWilkie::new(sun.elevation_deg.min(90.0), self.turbidity, self.ground)?;
+        let air = self.is_coloured.then_some(SunlitAir { mass: air_mass * pressure_ratio, turbidity: self.turbidity });
         let mut distribution = match self.model {
             SkyModel::Perez => Distribution::Perez(PerezSky::new(&clearness, zenith_angle)),
             SkyModel::HosekWilkie => Distribution::HosekWilkie(blue),
@@ -154,7 +159,8 @@ impl Daylight {
             distribution,
             scale: diffuse_lux / unscaled,
             blue: self.is_coloured.then_some((blue, self.clear_share(&clearness))),
-            sun_colour: if self.is_coloured { colour::of_sun(air_mass * pressure_ratio, self.turbidity) } else { [1.0; 3] },
+            sun_colour: air.map_or([1.0; 3], colour::of_sun),
+            air,
         })
     }
 
@@ -214,14 +220,16 @@ pub struct Sky {
     pub irradiance: Irradiance,
     /// Perez's figures of these irradiances.
     pub clearness: Clearness,
-    ground: f64,
-    distribution: Distribution,
+    pub(super) ground: f64,
+    pub(super) distribution: Distribution,
     /// cd/m² in the distribution's unit.
     scale: f64,
     /// The model that gives the blue, and the share of it.
     blue: Option<(HosekWilkie, f64)>,
     /// Linear Rec.709 of luminance 1.
-    sun_colour: [f64; 3],
+    pub(super) sun_colour: [f64; 3],
+    /// What the sun shines through, where sun and sky have colours.
+    pub(super) air: Option<SunlitAir>,
 }
 
 impl Sky {
@@ -237,6 +245,7 @@ impl Sky {
             scale: 0.0,
             blue: None,
             sun_colour: [1.0; 3],
+            air: None,
         }
     }
 

@@ -51,25 +51,7 @@ impl HosekWilkie {
 
     fn with(is_tristimulus: bool, elevation_deg: f64, turbidity: f64, albedo: f64) -> Result<Self> {
         let data = if is_tristimulus { TRISTIMULUS } else { REC709 };
-        let elevation = within("sun elevation", "°", elevation_deg, 0.0..=90.0)?.to_radians();
-        within("turbidity", "", turbidity, 1.0..=10.0)?;
-        within("ground", "", albedo, 0.0..=1.0)?;
-        let knots = bernstein((elevation / FRAC_PI_2).cbrt());
-        let corners = corners(turbidity, albedo);
-        let channel = |colour: usize| {
-            let mut channel = HosekWilkieChannel::default();
-            for (weight, cell) in corners {
-                for (knot, share) in knots.iter().enumerate() {
-                    let weight = weight * share;
-                    for (index, parameter) in channel.parameters.iter_mut().enumerate() {
-                        *parameter += weight * value(data, colour * PARAMETERS + (cell * 6 + knot) * 9 + index);
-                    }
-                    channel.radiance += weight * value(data, 3 * PARAMETERS + colour * RADIANCES + cell * 6 + knot);
-                }
-            }
-            channel
-        };
-        Ok(Self { channels: std::array::from_fn(channel), is_tristimulus })
+        Ok(Self { channels: channels(data, elevation_deg, turbidity, albedo)?, is_tristimulus })
     }
 
     /// The formulas of the three colours.
@@ -86,8 +68,31 @@ impl HosekWilkie {
     }
 }
 
+/// The formulas of data that have so many colours, for a sun, a turbidity and an albedo.
+pub(super) fn channels<const N: usize>(data: &[u8], elevation_deg: f64, turbidity: f64, albedo: f64) -> Result<[HosekWilkieChannel; N]> {
+    let elevation = within("sun elevation", "°", elevation_deg, 0.0..=90.0)?.to_radians();
+    within("turbidity", "", turbidity, 1.0..=10.0)?;
+    within("ground", "", albedo, 0.0..=1.0)?;
+    let knots = bernstein((elevation / FRAC_PI_2).cbrt());
+    let corners = corners(turbidity, albedo);
+    let channel = |colour: usize| {
+        let mut channel = HosekWilkieChannel::default();
+        for (weight, cell) in corners {
+            for (knot, share) in knots.iter().enumerate() {
+                let weight = weight * share;
+                for (index, parameter) in channel.parameters.iter_mut().enumerate() {
+                    *parameter += weight * value(data, colour * PARAMETERS + (cell * 6 + knot) * 9 + index);
+                }
+                channel.radiance += weight * value(data, N * PARAMETERS + colour * RADIANCES + cell * 6 + knot);
+            }
+        }
+        channel
+    };
+    Ok(std::array::from_fn(channel))
+}
+
 /// The paper's formula 8.
-fn shape(&[a, b, c, d, e, f, g, i, h]: &[f64; 9], up: f64, angle: f64) -> f64 {
+pub(super) fn shape(&[a, b, c, d, e, f, g, i, h]: &[f64; 9], up: f64, angle: f64) -> f64 {
     let cosine = angle.cos();
     let mie = (1.0 + cosine * cosine) / (1.0 + h * h - 2.0 * h * cosine).powf(1.5);
     let graded = 1.0 + a * (b / (up + 0.01)).exp();

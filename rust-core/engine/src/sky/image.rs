@@ -79,7 +79,8 @@ impl Daylight {
         let source = TextureSource::Pixels { width, height, rgba };
         let texture = scene.add_texture(Texture { origin: Origin::new("sky"), source, colour_space: "raw".into() });
         let dome = LightShape::Dome { format: DomeFormat::LatLong };
-        scene.lights.push(Light { texture: Some(texture), ..Light::new(Origin::new("sky"), dome, frame.dome()) });
+        let colour_spectra = sky.sky_spectra().map(Arc::new);
+        scene.lights.push(Light { texture: Some(texture), colour_spectra, ..Light::new(Origin::new("sky"), dome, frame.dome()) });
         if sky.direct_lux > 0.0 {
             scene.lights.push(sun_light(&sky, frame));
         }
@@ -91,5 +92,6 @@ impl Daylight {
 fn sun_light(sky: &Sky, frame: &Frame) -> Light {
     let emission = Emission { radiance: sky.sun_irradiance().map(|value| value as f32), normalized: true, ..Emission::default() };
     let shape = LightShape::Distant { angle_deg: SUN_ANGLE_DEG };
-    Light { emission, ..Light::new(Origin::new("sun"), shape, frame.from_direction(sky.sun.direction())) }
+    let colour_spectra = sky.sun_spectra().map(Arc::new);
+    Light { emission, colour_spectra, ..Light::new(Origin::new("sun"), shape, frame.from_direction(sky.sun.direction())) }
 }

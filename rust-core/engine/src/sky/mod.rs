@@ -16,6 +16,7 @@ mod image;
 mod model;
 mod moment;
 mod preetham;
+mod spectra;
 mod sun_position;
 mod weather;
 
@@ -28,6 +29,7 @@ pub use image::{DEFAULT_ROWS, SkyImage, draw_by_angle};
 pub use model::SkyModel;
 pub use moment::Moment;
 pub use preetham::Preetham;
+pub use spectra::HosekWilkieBands;
 pub use sun_position::{Air, Place, SunPosition, SunTimes, sun_position, sun_times};
 pub use weather::in_irradiances;
 

@@ -5,10 +5,9 @@
 //! the figures may be off.
 
 use super::{
-    check_spectra,
+    by_colour_alone, check_spectra,
     colour_reading::ColourReading,
     sources::{SourceScene, by_spectrum},
-    without_spectra,
 };
 use crate::{
     compile::{BandedScene, compile},
@@ -146,7 +145,7 @@ fn check(scene: &Scene, meters: &[&Meter], diagnostics: &mut Vec<Diagnostic>) ->
     if let Some(meter) = meters.iter().find(wants_spectra) {
         return check_spectra(scene, &meter.origin, "figures of colour rendering", diagnostics);
     }
-    if without_spectra(scene).next().is_some() {
+    if by_colour_alone(scene).next().is_some() {
         diagnostics.push(stands_in(&first.origin));
     }
     Ok(())

@@ -18,7 +18,7 @@ use crate::{
 /// Lamps and surfaces that shine without a spectrum.
 fn check_spectra(scene: &Scene, of: &Origin, figures: &str, diagnostics: &mut Vec<Diagnostic>) -> Result<()> {
     let is_sky = |light: &&Light| matches!(light.shape, LightShape::Dome { .. } | LightShape::Distant { .. });
-    if let Some(lamp) = without_spectra(scene).find(|light| !is_sky(light)) {
+    if let Some(lamp) = by_colour_alone(scene).find(|light| !is_sky(light)) {
         let problem =
             format!("{figures} want its spectrum, which its colour does not tell: give it gonio:spectrum, a file or a name such as LED-B3");
         return Err(Error::scene(&lamp.origin, problem));
@@ -28,7 +28,7 @@ fn check_spectra(scene: &Scene, of: &Origin, figures: &str, diagnostics: &mut Ve
             format!("it shines, and {figures} want its spectrum, which its colour does not tell: give it gonio:spectrum, a file or a name");
         return Err(Error::scene(&surface.origin, problem));
     }
-    if without_spectra(scene).next().is_some() {
+    if by_colour_alone(scene).next().is_some() {
         diagnostics.push(Diagnostic::info(of, "sun and sky without a spectrum count as daylight D65 of their colour"));
     }
     if scene.media_shine() {
@@ -38,7 +38,12 @@ fn check_spectra(scene: &Scene, of: &Origin, figures: &str, diagnostics: &mut Ve
     Ok(())
 }
 
-/// Lights that shine without a spectrum.
+/// Lights that shine, and of which the colour alone is known.
+fn by_colour_alone(scene: &Scene) -> impl Iterator<Item = &Light> {
+    without_spectra(scene).filter(|light| light.colour_spectra.is_none())
+}
+
+/// Lights that shine without a spectrum, of which the spectra of their colours may be known.
 fn without_spectra(scene: &Scene) -> impl Iterator<Item = &Light> {
     scene.lights.iter().filter(|light| light.spectrum.is_none() && shines(light))
 }

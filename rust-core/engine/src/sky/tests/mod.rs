@@ -5,6 +5,7 @@ mod bad_input;
 mod models;
 mod moments;
 mod picture;
+mod spectra;
 mod sun;
 
 use super::{Daylight, Moment, Place};
