@@ -25,12 +25,14 @@ def lights(world, images, report):
     number = images.changing(("daylight", world.original.session_uid), world.name, np.array(daylight.image()))
     # The picture has the zenith on top and south in the middle.
     axes = np.stack([east, [0.0, 0.0, 1.0], -north], axis=1)
-    found = [at_infinity(world.name, {"Dome": {"format": "LatLong"}}, np.ones(3), axes, texture=number)]
+    dome = {"Dome": {"format": "LatLong"}}
+    found = [at_infinity(world.name, dome, np.ones(3), axes, texture=number, spectra=daylight.sky_spectra)]
     if daylight.direct_illuminance > 0.0:
         towards_east, towards_north, up = daylight.sun_direction
         towards = towards_east * east + towards_north * north + np.array([0.0, 0.0, up])
         shape = {"Distant": {"angle_deg": SUN_ANGLE}}
-        found.append(at_infinity(world.name, shape, np.array(daylight.sun_irradiance), facing(towards), normalized=True))
+        irradiance, spectra = np.array(daylight.sun_irradiance), daylight.sun_spectra
+        found.append(at_infinity(world.name, shape, irradiance, facing(towards), normalized=True, spectra=spectra))
     return found
 
 

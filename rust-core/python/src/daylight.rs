@@ -4,6 +4,7 @@ use crate::{
     error::{exception, setting},
     pass::Pass,
 };
+use gonio::scene::ColourSpectra;
 use gonio::sky::{self, Air, Frame, Irradiance, Moment, Place, SkyModel, SunTimes, UpAxis};
 use gonio_formats::weather;
 use pyo3::{exceptions::PyValueError, prelude::*, types::PyDict};
@@ -154,6 +155,17 @@ impl Daylight {
     fn sun_irradiance(&self) -> [f64; 3] {
         self.sky.sun_irradiance()
     }
+    /// What red, green and blue of the sky are where light has wavelengths, as `add_light` takes it: `wavelengths_nm`, and `over_d65`, three lists. None for a
+    /// white sky.
+    #[getter]
+    fn sky_spectra<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
+        self.sky.sky_spectra().map(|spectra| spectra_described(py, &spectra)).transpose()
+    }
+    /// The same of the sun's disc.
+    #[getter]
+    fn sun_spectra<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
+        self.sky.sun_spectra().map(|spectra| spectra_described(py, &spectra)).transpose()
+    }
     /// Luminance of the sky without the sun's disc towards a unit vector (east, north, up), cd/m².
     fn luminance(&self, direction: [f64; 3]) -> f64 {
         self.sky.luminance(direction)
@@ -180,6 +192,13 @@ impl Daylight {
             sky.diffuse_lux
         )
     }
+}
+
+fn spectra_described<'py>(py: Python<'py>, spectra: &ColourSpectra) -> PyResult<Bound<'py, PyDict>> {
+    let described = PyDict::new(py);
+    described.set_item("wavelengths_nm", &spectra.wavelengths_nm)?;
+    described.set_item("over_d65", spectra.over_d65.to_vec())?;
+    Ok(described)
 }
 
 /// How the sky stands over a scene.

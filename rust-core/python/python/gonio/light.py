@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 # Keyword arguments that tell the strength in place of the radiance, and their names in descriptions.
 QUANTITIES = {"lumens": "Lumens", "lamp_lumens": "LampLumens", "candela": "Candela", "lux": "Lux", "nits": "Nits", "watts": "Watts"}
 
+# Keyword arguments that descriptions have as they are given.
+AS_GIVEN = ("dimming", "maintenance", "spot", "group", "goniogram", "texture", "spectrum", "colour_spectra")
+
 # A luminaire that has no extent.
 POINT = {"shape": "Point", "size": [0.0] * 3, "heights": [0.0] * 4}
 
@@ -44,6 +47,8 @@ class Photometry(TypedDict, total=False):
     texture: Texture | None
     # A name such as "LED-B3", a file, wavelengths in nm and power, or what `illuminant` and `read_spectrum` give.
     spectrum: str | PathLike[str] | Mapping[str, Any] | tuple[Sequence[float], Sequence[float]] | None
+    # What red, green and blue of its colour are where light has wavelengths, as `Daylight.sky_spectra` gives it.
+    colour_spectra: Mapping[str, Any] | None
 
 
 def light(
@@ -76,7 +81,7 @@ def light(
         "transform": columns(transform),
         "visibility": {"camera": visible},
         "casts_shadow": True,
-        **{key: given[key] for key in ("dimming", "maintenance", "spot", "group", "goniogram", "texture", "spectrum") if key in given},
+        **{key: given[key] for key in AS_GIVEN if key in given},
     }
 
 
