@@ -2,7 +2,7 @@
 
 use super::MeasuredBsdf;
 use super::angles::through;
-use gonio_simd::{F, Lanes, M, Rgb, Spectrum, Vec3, Wavelengths};
+use gonio_simd::{F, Lanes, M, Spectrum, Vec3, Wavelengths};
 
 /// What was measured, seen from one side or the other.
 #[derive(Clone, Copy, Debug)]
@@ -72,28 +72,38 @@ fn eval<L: Lanes>(l: L, lobe: &MeasuredLobe<'_, L>, wo: Vec3<L>, wi: Vec3<L>) ->
             let (wo, wi) = (lobe.seen(wo), lobe.seen(wi));
             let up = Vec3::new(wi.x, wi.y, wi.z.abs());
             let passes = wi.z.lt(0.0);
-            let mut sum = (Rgb::zero(l), l.f(0.0));
+            let mut sum = (Spectrum::zero(l), l.f(0.0));
             for (side, here) in lobe.sides(l).into_iter().enumerate() {
                 let here = here & wo.z.gt(0.0);
                 for (transmitted, through) in [(false, wi.z.gt(0.0)), (true, passes)] {
                     let chosen = here & through;
                     if lobe.bsdf.scatters[side][usize::from(transmitted)] && chosen.any() {
-                        let (value, pdf) = eval_side(l, lobe.bsdf, [side, usize::from(transmitted)], up, wo);
+                        let (value, pdf) = eval_side(l, lobe, [side, usize::from(transmitted)], up, wo);
                         sum = (chosen.select(value, sum.0), chosen.select(pdf, sum.1));
                     }
                 }
             }
-            (lobe.wavelengths.coefficient(sum.0), sum.1)
+            sum
         },
     )
 }
 
-/// [`MeasuredBsdf::eval_side`], compiled once however many sides there are.
+/// What was measured between directions on one side, compiled once however many sides there are: by wavelength where that is known, else by its colour.
 #[inline(never)]
-fn eval_side<L: Lanes>(l: L, bsdf: &MeasuredBsdf, [side, kind]: [usize; 2], wi: Vec3<L>, wo: Vec3<L>) -> (Rgb<L>, F<L>) {
+fn eval_side<L: Lanes>(l: L, lobe: &MeasuredLobe<'_, L>, [side, kind]: [usize; 2], wi: Vec3<L>, wo: Vec3<L>) -> (Spectrum<L>, F<L>) {
     l.vectorize(
         #[inline(always)]
-        || bsdf.eval_side(l, side, kind == 1, wi, wo),
+        || {
+            let own = lobe.wavelengths.nanometres().and_then(
+                #[inline(always)]
+                |nanometres| lobe.bsdf.eval_at(l, nanometres, wi, wo),
+            );
+            if let Some(own) = own {
+                return own;
+            }
+            let (colour, pdf) = lobe.bsdf.eval_side(l, side, kind == 1, wi, wo);
+            (lobe.wavelengths.coefficient(colour), pdf)
+        },
     )
 }
 

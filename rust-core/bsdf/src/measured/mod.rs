@@ -5,10 +5,12 @@
 
 mod albedo;
 mod angles;
+mod basis;
 mod half_vector;
 mod lobe;
 mod patches;
 mod rgl;
+mod spectra;
 mod table;
 mod tree;
 mod warp;
@@ -17,7 +19,7 @@ pub(crate) use lobe::MeasuredLobe;
 
 use albedo::Albedos;
 use gonio_formats::bsdf::{Hemispheres, Measured, Resolution, Sampler, Table};
-use gonio_simd::{F, Lanes, M, Rgb, Vec3};
+use gonio_simd::{F, Lanes, M, Rgb, Spectrum, Vec3};
 use half_vector::HalfVectors;
 use patches::PatchMatrices;
 use rgl::Adaptive;
@@ -28,7 +30,7 @@ use tree::ColourTree;
 const PAIRS: [[Hemispheres; 2]; 2] =
     [[Hemispheres::ReflectionFront, Hemispheres::TransmissionBack], [Hemispheres::ReflectionBack, Hemispheres::TransmissionFront]];
 
-/// A measured BSDF laid out for lanes, in linear Rec.709.
+/// A measured BSDF laid out for lanes, in linear Rec.709, and by wavelength where that was asked for and it was measured so.
 #[derive(Clone, Debug)]
 pub struct MeasuredBsdf {
     scattering: Scattering,
@@ -49,15 +51,27 @@ enum Scattering {
 }
 
 impl MeasuredBsdf {
-    /// Lays a measurement out.
+    /// Lays a measurement out in colour.
     ///
     /// # Errors
     /// When its angles are too near each other for single precision, or a table has 2³¹ values or more.
     pub fn new(measured: &Measured) -> Result<Self, &'static str> {
+        Self::laid_out(measured, false)
+    }
+
+    /// The same for light with wavelengths: adaptive measurements (RGL) keep their spectra.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn with_wavelengths(measured: &Measured) -> Result<Self, &'static str> {
+        Self::laid_out(measured, true)
+    }
+
+    fn laid_out(measured: &Measured, wavelengths: bool) -> Result<Self, &'static str> {
         const PROBLEM: &str = "its angles are too near each other for single precision, or it has 2^31 values or more";
         let is_isotropic = is_isotropic(measured);
         let sampler = Sampler::new(measured, &if is_isotropic { Resolution::ISOTROPIC } else { Resolution::ANISOTROPIC });
-        let scattering = scattering(measured, &sampler).ok_or(PROBLEM)?;
+        let scattering = scattering(measured, &sampler, wavelengths).ok_or(PROBLEM)?;
         let scatters = PAIRS.map(|pairs| pairs.map(|pair| measured.has(pair)));
         let albedos = Albedos::new(measured, &sampler).ok_or(PROBLEM)?;
         let is_one_sided = scatters == [[true, false], [false, false]] && measured.unseen().is_empty();
@@ -73,6 +87,14 @@ impl MeasuredBsdf {
     /// degrees at which it does. More than 1 is no reflectance that a surface can have.
     pub fn peak_albedo(&self) -> (f32, f32) {
         self.albedos.peak()
+    }
+
+    /// By how much the spectra that it keeps differ from those that were measured, rms over their own; zero where it keeps none.
+    pub fn spectral_error(&self) -> f64 {
+        match &self.scattering {
+            Scattering::Adaptive(adaptive) => adaptive.spectral_error(),
+            _ => 0.0,
+        }
     }
 
     /// Where a view is at the measurement's front; `entering` where it is at the surface's.
@@ -111,6 +133,15 @@ impl MeasuredBsdf {
         }
     }
 
+    /// BSDF × cosine at wavelengths in nanometres, and density, where it is known by wavelength.
+    #[inline(always)]
+    pub(crate) fn eval_at<L: Lanes>(&self, l: L, nanometres: Spectrum<L>, wi: Vec3<L>, wo: Vec3<L>) -> Option<(Spectrum<L>, F<L>)> {
+        match &self.scattering {
+            Scattering::Adaptive(adaptive) => adaptive.eval_at(l, nanometres, wi, wo),
+            _ => None,
+        }
+    }
+
     /// A direction on the viewer's side, whether it is meant for the other side, and whether there is any.
     #[inline(always)]
     fn sample_side<L: Lanes>(&self, l: L, side: usize, wo: Vec3<L>, u: [F<L>; 3]) -> (Vec3<L>, [M<L>; 2]) {
@@ -136,7 +167,7 @@ fn is_isotropic(measured: &Measured) -> bool {
     }
 }
 
-fn scattering(measured: &Measured, sampler: &Sampler<'_>) -> Option<Scattering> {
+fn scattering(measured: &Measured, sampler: &Sampler<'_>, wavelengths: bool) -> Option<Scattering> {
     let half_vectors = || HalfVectors::new(sampler.table()?).map(Box::new);
     Some(match measured {
         Measured::Tables(tables) => {
@@ -154,6 +185,6 @@ fn scattering(measured: &Measured, sampler: &Sampler<'_>) -> Option<Scattering> 
             Scattering::Trees(Box::new(sides), half_vectors()?)
         }
         Measured::Patches(patches) => Scattering::Patches(Box::new(PatchMatrices::new(patches)?)),
-        Measured::Rgl(rgl) => Scattering::Adaptive(Box::new(Adaptive::new(rgl)?)),
+        Measured::Rgl(rgl) => Scattering::Adaptive(Box::new(Adaptive::new(rgl, wavelengths)?)),
     })
 }

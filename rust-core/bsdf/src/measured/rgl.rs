@@ -2,9 +2,10 @@
 //! [`gonio_formats::bsdf::Rgl`].
 
 use super::angles::{azimuth, elevation, normal_of, sine, solid_angle_per_square, square_of, turned, unturned};
+use super::spectra::SpectralInterpolant;
 use super::warp::{Blend, ColourInterpolant, Interpolant, MOST_SLICES, Warp};
-use gonio_formats::bsdf::{Interpolant as Found, Rgl};
-use gonio_simd::{F, Lanes, M, Rgb, Vec3};
+use gonio_formats::bsdf::{Channels, Interpolant as Reference, Rgl};
+use gonio_simd::{F, Lanes, M, Rgb, Spectrum, Vec3};
 use gonio_table::Axis;
 
 /// Below this the measure of normals counts as this: the pole has none.
@@ -21,6 +22,8 @@ pub(super) struct Adaptive {
     luminance: Warp,
     /// BSDF × cosine over the warped square.
     colour: ColourInterpolant,
+    /// The same by wavelength, where light has any and the file does.
+    spectra: Option<SpectralInterpolant>,
     /// Parts of a turn of which one was measured.
     reduction: u32,
 }
@@ -34,11 +37,25 @@ struct Query<L: Lanes> {
     blend: Blend<L>,
 }
 
+/// Where the file has a pair of directions.
+struct Found<L: Lanes> {
+    /// The place in the warped square.
+    place: [F<L>; 2],
+    blend: Blend<L>,
+    /// Factor on what stands there.
+    scale: F<L>,
+    pdf: F<L>,
+}
+
 impl Adaptive {
-    /// The reference's tables, spectra as colours. `None` where angles are not sound or there are 2³¹ values or more.
-    pub(super) fn new(found: &Rgl) -> Option<Self> {
+    /// The reference's tables, spectra as colours; with `wavelengths` also as they are. `None` where angles are not sound or there are 2³¹ values or more.
+    pub(super) fn new(found: &Rgl, wavelengths: bool) -> Option<Self> {
         let sized = |knots: &[f32]| Axis::new(knots.to_vec());
         let jacobian = if found.jacobian { Some([Interpolant::new(&found.ndf)?, Interpolant::new(&found.sigma)?]) } else { None };
+        let spectra = match &found.channels {
+            Channels::Bands { wavelengths_nm } if wavelengths => Some(SpectralInterpolant::new(&found.spectra, wavelengths_nm)?),
+            _ => None,
+        };
         Some(Self {
             phi: sized(found.phi_knots())?,
             theta: sized(found.theta_knots())?,
@@ -46,6 +63,7 @@ impl Adaptive {
             vndf: Warp::new(&found.vndf)?,
             luminance: Warp::new(&found.luminance)?,
             colour: colours(&found.spectra, &found.channels.rgb_weights())?,
+            spectra,
             reduction: found.reduction(),
         })
     }
@@ -53,6 +71,11 @@ impl Adaptive {
     /// Whether only the difference of azimuths counts.
     pub(super) fn is_isotropic(&self) -> bool {
         self.phi.len() <= 2
+    }
+
+    /// By how much its spectra differ from the file's, rms over their own.
+    pub(super) fn spectral_error(&self) -> f64 {
+        self.spectra.as_ref().map_or(0.0, SpectralInterpolant::error)
     }
 
     /// The slices around a view.
@@ -78,17 +101,32 @@ impl Adaptive {
     /// BSDF × cosine and the density of [`Self::sample`], for directions at the front.
     #[inline(always)]
     pub(super) fn eval<L: Lanes>(&self, l: L, wi: Vec3<L>, wo: Vec3<L>) -> (Rgb<L>, F<L>) {
+        let found = self.found(l, wi, wo);
+        (self.colour.eval(l, found.place, &found.blend) * found.scale, found.pdf)
+    }
+
+    /// The same at wavelengths in nanometres, where the file's are known.
+    #[inline(always)]
+    pub(super) fn eval_at<L: Lanes>(&self, l: L, nanometres: Spectrum<L>, wi: Vec3<L>, wo: Vec3<L>) -> Option<(Spectrum<L>, F<L>)> {
+        let spectra = self.spectra.as_ref()?;
+        let found = self.found(l, wi, wo);
+        Some((spectra.eval(l, found.place, &found.blend, nanometres) * found.scale, found.pdf))
+    }
+
+    /// Where the file has a pair of directions, and their density.
+    #[inline(always)]
+    fn found<L: Lanes>(&self, l: L, wi: Vec3<L>, wo: Vec3<L>) -> Found<L> {
         let Query { wo, normal, square, blend } = self.query(l, wi, wo);
         let (place, visible) = self.vndf.invert(l, square, &blend);
-        let mut colour = self.colour.eval(l, place, &blend);
+        let mut scale = l.f(1.0);
         if let Some([ndf, sigma]) = &self.jacobian {
             let still = Blend::one(l.u(0));
             let area = sigma.eval(l, square_of(wo), &still) * 4.0;
-            colour = colour * (ndf.eval(l, square, &still) / area.max(f32::MIN_POSITIVE));
+            scale = ndf.eval(l, square, &still) / area.max(f32::MIN_POSITIVE);
         }
         let area = solid_angle_per_square(square[0], sine(normal)).max(LEAST_JACOBIAN) * wo.dot(normal) * 4.0;
         let pdf = visible * self.luminance.density(l, place, &blend) / area.max(f32::MIN_POSITIVE);
-        (colour, pdf.keep_if(area.gt(0.0)))
+        Found { place, blend, scale, pdf: pdf.keep_if(area.gt(0.0)) }
     }
 
     /// A direction in proportion to luminance × cosine for a view at the front; it may be below the surface, where it does not count.
@@ -129,7 +167,7 @@ impl Adaptive {
 }
 
 /// Spectra as colours: for each slice the nodes with four values each.
-fn colours(found: &Found, weights: &[[f64; 3]]) -> Option<ColourInterpolant> {
+fn colours(found: &Reference, weights: &[[f64; 3]]) -> Option<ColourInterpolant> {
     let nodes = found.rows * found.columns;
     let mut data = Vec::with_capacity(found.data.len() / weights.len() * 4);
     for slice in found.data.chunks_exact(weights.len() * nodes) {

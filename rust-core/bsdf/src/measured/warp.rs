@@ -35,11 +35,11 @@ pub(super) struct ColourInterpolant {
 
 /// A patch between four nodes: its first node, and the place inside it.
 #[derive(Clone, Copy, Debug)]
-struct Patch<L: Lanes> {
-    column: U<L>,
-    row: U<L>,
-    x: F<L>,
-    y: F<L>,
+pub(super) struct Patch<L: Lanes> {
+    pub(super) column: U<L>,
+    pub(super) row: U<L>,
+    pub(super) x: F<L>,
+    pub(super) y: F<L>,
 }
 
 /// A density with the cumulative sums that its map needs. Each run of sums begins with 0.
@@ -73,7 +73,7 @@ impl<L: Lanes> Blend<L> {
 
 /// The patch around a place of a square of this many nodes.
 #[inline(always)]
-fn patch<L: Lanes>(at: [F<L>; 2], columns: usize, rows: usize) -> Patch<L> {
+pub(super) fn patch<L: Lanes>(at: [F<L>; 2], columns: usize, rows: usize) -> Patch<L> {
     let ((column, x), (row, y)) = (between(at[0], columns), between(at[1], rows));
     Patch { column, row, x, y }
 }

@@ -7,7 +7,7 @@ use super::{chi_square, rows};
 use crate::{Closure, Distribution, MeasuredBsdf, Surface, Switches, parameter as p};
 use core::f64::consts::{PI, TAU};
 use gonio_formats::bsdf::{Axis, Channels, Coordinates, Direction, Hemispheres, Layout, Measured, Mode, Resolution, Sampler, Table};
-use gonio_simd::Execution;
+use gonio_simd::{Column, Execution, Lanes, Vec3, WavelengthTable, Wavelengths, dispatch};
 use std::sync::{Arc, LazyLock};
 
 /// A measurement of each kind, and it as a surface.
@@ -104,6 +104,48 @@ fn lanes_agree_with_the_reference() {
         }
     }
     assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+/// Between wavelengths a spectrum is linear, and beyond the file's constant.
+fn at_wavelength(measured: &Measured, wi: Direction, wo: Direction, nm: f64) -> f64 {
+    let Channels::Bands { wavelengths_nm } = measured.channels() else { return f64::NAN };
+    let mut values = vec![0.0; wavelengths_nm.len()];
+    measured.eval(wi, wo, &mut values);
+    let above = wavelengths_nm.partition_point(|known| *known <= nm).clamp(1, wavelengths_nm.len() - 1);
+    let share = ((nm - wavelengths_nm[above - 1]) / (wavelengths_nm[above] - wavelengths_nm[above - 1])).clamp(0.0, 1.0);
+    values[above - 1] + share * (values[above] - values[above - 1])
+}
+
+#[test]
+fn adaptive_measurements_keep_their_spectra() {
+    const NANOMETRES: [[f64; 3]; 4] = [[700.0, 540.0, 450.0], [380.0, 780.0, 581.3], [620.5, 533.25, 401.0], [555.0, 555.0, 555.0]];
+    let places: Vec<f32> = NANOMETRES.iter().flat_map(|nm| [nm[0], nm[1], nm[2], 380.0]).map(|nm| ((nm - 380.0) / 400.0) as f32).collect();
+    let mut column = Column::new(places.len());
+    column[..places.len()].copy_from_slice(&places);
+    let table = WavelengthTable { rotations: 4, places: column, ..WavelengthTable::default() };
+    for measured in [measurements::adaptive(), measurements::adaptive_anisotropic()].map(measurements::by_wavelength) {
+        let laid_out = MeasuredBsdf::with_wavelengths(&measured).expect("a measurement of ordinary size");
+        assert!(laid_out.spectral_error() < 2e-3, "{}", laid_out.spectral_error());
+        let (mut odd, mut all) = (0, 0);
+        for (number, nanometres) in (0..600_u64).zip(NANOMETRES.iter().enumerate().cycle()) {
+            let up = |d: [f32; 3]| widened([d[0], d[1], d[2].abs().max(0.05)]).map(|x| x as f32);
+            let (wi, wo) = (up(any_direction(2 * number)), up(any_direction(2 * number + 1)));
+            for execution in Execution::all() {
+                let found = dispatch!(execution, l => {
+                    let light = Wavelengths::new(Some(&table), l.u(nanometres.0 as u32)).nanometres().expect("wavelengths");
+                    let found = laid_out.eval_at(l, light, Vec3::splat(l, wi), Vec3::splat(l, wo)).expect("a spectrum").0.to_rgb();
+                    [found.r, found.g, found.b].map(|x| x.to_array()[0])
+                });
+                for (found, nm) in found.into_iter().zip(nanometres.1) {
+                    let expected = at_wavelength(&measured, widened(wi), widened(wo), *nm);
+                    all += 1;
+                    odd += u32::from((f64::from(found) - expected).abs() > 5e-3 * expected.abs() + 1e-5);
+                }
+            }
+        }
+        assert!(f64::from(odd) < 5e-4 * f64::from(all), "{odd} of {all} differ");
+        assert!(MeasuredBsdf::new(&measured).is_ok());
+    }
 }
 
 #[test]

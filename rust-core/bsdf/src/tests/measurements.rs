@@ -116,6 +116,27 @@ pub(super) fn adaptive_anisotropic() -> Measured {
     Measured::Rgl(Box::new(Rgl::from_function(&grid, "", value).expect("a sound grid")))
 }
 
+/// Adaptive measurements by wavelength, in uneven steps and beyond what is seen: at each a mixture of the three channels of one in colour, under a film
+/// that is thicker from node to node.
+pub(super) fn by_wavelength(measured: Measured) -> Measured {
+    let Measured::Rgl(mut rgl) = measured else { return measured };
+    let wavelengths: Vec<f64> = (0..50).map(|i| f64::from(360 + 10 * i + 3 * (i % 3))).collect();
+    let nodes = rgl.spectra.rows * rgl.spectra.columns;
+    let mut data = Vec::new();
+    for slice in rgl.spectra.data.chunks_exact(3 * nodes) {
+        for nm in &wavelengths {
+            let shares = [nm / 500.0, 1.0 + (nm / 30.0).sin(), 0.5 + 0.5 * (nm / 90.0).cos()];
+            let film = |node: usize| (1.0 + 0.5 * (TAU * 900.0 * node as f64 / nodes as f64 / nm).cos()) as f32;
+            let mixture = |node: usize| (0..3).map(|c| shares[c] as f32 * slice[c * nodes + node]).sum::<f32>();
+            data.extend((0..nodes).map(|node| film(node) * mixture(node)));
+        }
+    }
+    rgl.spectra.data = data;
+    rgl.spectra.parameters[2] = (0..wavelengths.len()).map(|band| band as f32).collect();
+    rgl.channels = Channels::bands(wavelengths).expect("increasing wavelengths");
+    Measured::Rgl(rgl)
+}
+
 /// Coloured matrices of reflection and transmission over two bases.
 pub(super) fn patches() -> Measured {
     let own = Basis::new("own", &[0.0, 12.0, 40.0, 90.0], &[1, 6, 9]).expect("a sound basis");

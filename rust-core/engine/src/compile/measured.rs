@@ -11,9 +11,14 @@ use std::sync::Arc;
 /// Shares of light up to this are those of a surface, and an estimate's noise.
 const MOST_ALBEDO: f32 = 1.02;
 
+/// Spectra that differ by up to this are those that were measured.
+const MOST_SPECTRAL_ERROR: f64 = 5e-3;
+
 /// The measurements of a scene by their numbers; none for what is not shown or cannot be used.
 #[derive(Clone, Debug, Default)]
 pub(super) struct CompiledMeasured {
+    /// Whether they are laid out for light with wavelengths.
+    spectral: bool,
     entries: Vec<Option<(Arc<Measured>, Arc<MeasuredBsdf>)>>,
 }
 
@@ -24,9 +29,9 @@ impl CompiledMeasured {
         Some(laid_out)
     }
 
-    /// What was laid out of the same measurement.
-    fn known(&self, data: &Arc<Measured>) -> Option<&Arc<MeasuredBsdf>> {
-        let same = |known: &Arc<Measured>| Arc::ptr_eq(known, data) || known == data;
+    /// What was laid out of the same measurement, for light with wavelengths or without.
+    fn known(&self, data: &Arc<Measured>, spectral: bool) -> Option<&Arc<MeasuredBsdf>> {
+        let same = |known: &Arc<Measured>| self.spectral == spectral && (Arc::ptr_eq(known, data) || known == data);
         self.entries.iter().flatten().find(|(known, _)| same(known)).map(|(_, laid_out)| laid_out)
     }
 }
@@ -40,9 +45,9 @@ pub(super) fn compile(scene: &Scene, kept: &CompiledMeasured, diagnostics: &mut 
             *place = true;
         }
     }
-    let mut compiled = CompiledMeasured { entries: Vec::with_capacity(shown.len()) };
+    let mut compiled = CompiledMeasured { spectral: scene.settings.spectral, entries: Vec::with_capacity(shown.len()) };
     for (measured, shown) in scene.measured.iter().zip(shown) {
-        let laid_out = if shown { laid_out(measured, [kept, &compiled], diagnostics) } else { None };
+        let laid_out = if shown { laid_out(measured, scene.settings.spectral, [kept, &compiled], diagnostics) } else { None };
         compiled.entries.push(laid_out.map(|laid_out| (measured.data.clone(), laid_out)));
     }
     compiled
@@ -54,9 +59,15 @@ fn shown_by(closure: &Closure) -> Option<usize> {
     closure.measured.filter(|_| shows).map(|id| id.index())
 }
 
-fn laid_out(measured: &scene::MeasuredBsdf, known: [&CompiledMeasured; 2], diagnostics: &mut Vec<Diagnostic>) -> Option<Arc<MeasuredBsdf>> {
-    let before = known.iter().find_map(|known| known.known(&measured.data)).cloned();
-    let laid_out = match before.map_or_else(|| MeasuredBsdf::new(&measured.data).map(Arc::new), Ok) {
+fn laid_out(
+    measured: &scene::MeasuredBsdf,
+    spectral: bool,
+    known: [&CompiledMeasured; 2],
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<Arc<MeasuredBsdf>> {
+    let before = known.iter().find_map(|known| known.known(&measured.data, spectral)).cloned();
+    let lay_out = if spectral { MeasuredBsdf::with_wavelengths } else { MeasuredBsdf::new };
+    let laid_out = match before.map_or_else(|| lay_out(&measured.data).map(Arc::new), Ok) {
         Ok(laid_out) => laid_out,
         Err(problem) => {
             diagnostics
@@ -66,6 +77,12 @@ fn laid_out(measured: &scene::MeasuredBsdf, known: [&CompiledMeasured; 2], diagn
     };
     let unseen = measured.data.unseen().into_iter().map(|problem| Diagnostic::warning(&measured.origin, problem));
     diagnostics.extend(unseen);
+    let error = laid_out.spectral_error();
+    if error > MOST_SPECTRAL_ERROR {
+        let message =
+            format!("the measurement's spectra are kept to {:.1} % of their own (rms): they have more detail or noise", 100.0 * error);
+        diagnostics.push(Diagnostic::warning(&measured.origin, message));
+    }
     let (albedo, angle) = laid_out.peak_albedo();
     if albedo > MOST_ALBEDO {
         let message = format!(
