@@ -103,6 +103,34 @@ def test_tm27_is_read(run, tmp_path):
     assert ended.returncode == 1 and "lamp.spdx" in ended.stderr and "not XML" in ended.stderr
 
 
+def test_luminaires_of_tm33_are_read(run, tmp_path):
+    """`gonio spectrum` has the figures of each spectrum, `gonio photometry` names it and keeps it in TM-33."""
+    grid = "".join(f'<IntData h="0" v="{v}">100</IntData>' for v in (0, 90, 180))
+
+    def spectrum(name, kelvin):
+        rows = "".join(f'<PwrData w="{nm}">{1e17 * planck(nm, kelvin):.6f}</PwrData>\n' for nm in range(380, 781))
+        return f"<EmitterSpectral><EmitterName>{name}</EmitterName><NumberWavelength>401</NumberWavelength>{rows}</EmitterSpectral>"
+
+    def luminaire(spectra):
+        data = f"<LuminousData><LuminousIntensity>{grid}</LuminousIntensity></LuminousData><SpectralData>{spectra}</SpectralData>"
+        return f"<IESTM33-22><Version>1.1</Version>\n<Emitter><Description>lamp</Description>{data}</Emitter></IESTM33-22>"
+
+    path = tmp_path / "lamp.xml"
+    path.write_text(luminaire(spectrum("warm", 3000)))
+    found = facts(run, path)
+    assert found["name"] == "warm" and found["cct"] == pytest.approx(3000, abs=2)
+    shown = run("photometry", path, "--convert", tmp_path / "again.xml").stdout
+    assert "spectrum: 401 points from 380 to 780 nm" in shown
+    assert facts(run, tmp_path / "again.xml")["cct"] == pytest.approx(found["cct"], abs=0.01)
+    assert "a .ies file has no place for the spectrum" in run("photometry", path, "--convert", tmp_path / "again.ies").stdout
+    told = json.loads(run("photometry", path, "--json").stdout)["spectrum"]
+    assert told["name"] == "warm" and len(told["power"]) == 401
+    path.write_text(luminaire(spectrum("warm", 3000) + spectrum("cold", 6000)))
+    assert [round(lamp["cct"], -1) for lamp in json.loads(run("spectrum", path, "--json").stdout)] == [3000, 6000]
+    path.write_text(luminaire(""))
+    assert "no emitter with an <EmitterSpectral> was found" in run("spectrum", path).stderr
+
+
 def test_errors_are_one_line_with_place(run, lamp, tmp_path):
     rows = [[nm, 1] for nm in range(380, 781, 5)]
 

@@ -82,10 +82,15 @@ impl LineNumbers {
         Self(text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(at, _)| at).collect())
     }
 
+    /// The line that a node begins in.
+    pub(crate) fn line(&self, node: Node<'_, '_>) -> u64 {
+        let start = node.range().start;
+        1 + self.0.partition_point(|end| *end < start) as u64
+    }
+
     /// A problem at a node.
     pub(crate) fn at(&self, node: Node<'_, '_>, problem: String) -> FormatError {
-        let start = node.range().start;
-        FormatError::line(1 + self.0.partition_point(|end| *end < start) as u64, problem)
+        FormatError::line(self.line(node), problem)
     }
 }
 

@@ -16,7 +16,7 @@ fn read(data: &[u8], name: &str, lamp_set: Option<usize>, tilt: f64) -> PyResult
     read().map_err(|error| exception(gonio::Error::in_file(name, &error)))
 }
 
-/// The goniogram of an IES, EULUMDAT, TM-33, GLDF or GDTF file's bytes as a light's description has it, its factors in cd, and warnings; `name` says which
+/// The goniogram of an IES, EULUMDAT, TM-33, GLDF or GDTF file's bytes as a light's description has it, its factors in cd and the spectrum of its light if the file has one, and warnings; `name` says which
 /// file it is, beside which a file of tilt factors lies, and behind `#` a GLDF file's variant or a GDTF file's mode: `lamp.gldf#wide`.
 /// lamp_set: number of the file's alternative lamps, from 1; tilt: degrees by which the luminaire hangs aslant, for files with tilt factors.
 #[pyfunction]

@@ -4,7 +4,7 @@ use crate::error::{exception, setting};
 use gonio_spectrum::{Figures, MetalIndex, OPSINS, REC709_TO_REC2020, Spectrum, White, named, upsampling};
 use pyo3::{prelude::*, types::PyDict};
 
-/// The spectrum of a file's bytes, text of nm and power or IES TM-27: `name`, `wavelengths_nm`, `power` over its largest, and `notes` on the data.
+/// The spectrum of a file's bytes, text of nm and power, IES TM-27 or TM-33: `name`, `wavelengths_nm`, `power` over its largest, and `notes` on the data.
 #[pyfunction]
 pub(crate) fn read_spectrum<'py>(py: Python<'py>, data: &[u8], name: &str) -> PyResult<Bound<'py, PyDict>> {
     let found = gonio_spectrum::read(data, name).map_err(|error| exception(gonio::Error::in_file(name, &error)))?;

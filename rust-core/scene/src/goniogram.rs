@@ -1,7 +1,9 @@
 //! How a light's emission depends on direction, as measured.
 
+use super::lamp_spectrum::LampSpectrum;
 use gonio_formats::photometry::{self, Opening, PhotometricType};
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// Factors on a light's emission on a grid of two angles, linear in both between its lines and zero beyond its ends. A point light of 1 cd whose
 /// factors are candela has the intensities themselves.
@@ -24,6 +26,9 @@ pub struct Goniogram {
     /// The luminaire's opening, in metres; a light has it if its shape is one.
     #[serde(default)]
     pub opening: Opening,
+    /// The spectrum of the luminaire's light, where its file has one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spectrum: Option<Arc<LampSpectrum>>,
 }
 
 impl From<&photometry::Goniogram> for Goniogram {
@@ -39,6 +44,7 @@ impl From<&photometry::Goniogram> for Goniogram {
             lamp_flux: found.lamps().and_then(|lamps| lamps.flux),
             watts: found.lamps().map(|lamps| lamps.watts).filter(|watts| *watts > 0.0),
             opening: found.opening,
+            spectrum: found.spectrum.clone().map(|spectrum| Arc::new(spectrum.into())),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Spectra of lamps.
 
 use super::LUMENS_PER_WATT;
+use gonio_formats::spectrum::SpectralPower;
 use gonio_spectrum::Spectrum;
 use serde::{Deserialize, Serialize};
 
@@ -24,6 +25,12 @@ pub fn lumens_per_watt(of: Option<&LampSpectrum>) -> f64 {
 
 impl From<Spectrum> for LampSpectrum {
     fn from(found: Spectrum) -> Self {
+        Self { name: found.name, wavelengths_nm: found.wavelengths_nm, power: found.power }
+    }
+}
+
+impl From<SpectralPower> for LampSpectrum {
+    fn from(found: SpectralPower) -> Self {
         Self { name: found.name, wavelengths_nm: found.wavelengths_nm, power: found.power }
     }
 }

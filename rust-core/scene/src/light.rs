@@ -269,6 +269,27 @@ impl Default for Light {
 }
 
 impl Light {
+    /// The spectrum of what it sends where light has wavelengths: its own; without one, and without a colour, that of its luminaire's file.
+    pub fn lamp_spectrum(&self) -> Option<&Arc<LampSpectrum>> {
+        let of_file = self.file_spectrum().filter(|_| !self.has_colour());
+        self.spectrum.as_ref().or(of_file)
+    }
+
+    /// Whether its colour stands for the spectrum that its luminaire's file has.
+    pub fn colour_hides_spectrum(&self) -> bool {
+        self.spectrum.is_none() && self.has_colour() && self.file_spectrum().is_some()
+    }
+
+    fn file_spectrum(&self) -> Option<&Arc<LampSpectrum>> {
+        let goniogram = self.goniogram.as_ref().filter(|_| !self.shape.is_at_infinity());
+        goniogram.and_then(|goniogram| goniogram.spectrum.as_ref())
+    }
+
+    fn has_colour(&self) -> bool {
+        let [r, g, b] = self.emission.radiance;
+        r != g || g != b
+    }
+
     /// Share of its full strength: dimming times maintenance.
     pub fn share(&self) -> f32 {
         self.dimming * self.maintenance

@@ -5,7 +5,7 @@ use crate::{
     observer::{EFFICACY, cie_1931},
     table::linear,
 };
-use gonio_formats::FormatError;
+use gonio_formats::{FormatError, spectrum::SpectralPoint};
 
 /// The widest step that is summed as it is, nm (CIE 15, CIE 224); within wider ones a spectrum is linear.
 pub(crate) const WIDEST_STEP: f64 = 5.0;
@@ -21,14 +21,6 @@ pub struct Spectrum {
     pub power: Vec<f64>,
     /// What a reader should know of the data: ranges that are missing, noise below zero, wide steps.
     pub notes: Vec<String>,
-}
-
-/// A point of a file, with the line that it stands in.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Point {
-    pub(crate) nm: f64,
-    pub(crate) power: f64,
-    pub(crate) line: Option<u64>,
 }
 
 /// A point of the sum: the power within the point's share of the wavelengths.
@@ -50,8 +42,8 @@ impl Spectrum {
         if wavelengths_nm.len() != power.len() {
             return Err(FormatError::whole(format!("{} wavelengths and {} powers", wavelengths_nm.len(), power.len())));
         }
-        let points = wavelengths_nm.iter().zip(power).map(|(nm, power)| Point { nm: *nm, power: *power, line: None });
-        check::checked(name, points.collect())
+        let points = wavelengths_nm.iter().zip(power).map(|(nm, power)| SpectralPoint { nm: *nm, power: *power, line: None });
+        check::checked(name, &points.collect::<Vec<_>>())
     }
 
     /// The power at a wavelength in nm: linear between the points, zero beyond them.

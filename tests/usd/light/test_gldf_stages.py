@@ -46,3 +46,24 @@ def test_what_is_chosen_unasked_and_what_is_not_there_are_told(lamp):
     assert "the first of 2 variants is taken, '500 lm'" in str(scene.diagnostics)
     body = 'asset gonio:photometry:file = @lamp.gldf@\n    string gonio:photometry:variant = "wide"'
     assert "no variant 'wide' was found among 2: '500 lm', '2000 lm'" in str(load(lamp, "SphereLight", body).diagnostics)
+
+
+def test_a_luminaires_spectrum_is_its_lights(tmp_path):
+    """A meter of colour has the figures of the spectrum in the file; one that cannot be used is told with the prim, the file and the line."""
+    import gonio
+
+    lamp = gonio.illuminant("LED-B3")
+    grid = "".join(f'<IntData h="0" v="{v}">100</IntData>' for v in (0, 90, 180))
+    rows = "".join(f'\n<PwrData w="{nm}">{power}</PwrData>' for nm, power in zip(lamp["wavelengths_nm"], lamp["power"], strict=True))
+    spectral = f"<SpectralData><EmitterSpectral>{rows}</EmitterSpectral></SpectralData>"
+    luminous = f"<LuminousData><LuminousIntensity>{grid}</LuminousIntensity></LuminousData>"
+    path = tmp_path / "lamp.xml"
+    path.write_text(f"<IESTM33-22><Emitter><Description>lamp</Description>{luminous}{spectral}</Emitter></IESTM33-22>")
+    body = "asset gonio:photometry:file = @lamp.xml@"
+    scene = load(tmp_path, "SphereLight", body)
+    scene.add_meter((0, 0, 0.01), normal=(0, 0, 1), quantity="cct")
+    [reading] = gonio.measure(scene, samples=256).meters
+    assert reading.value == pytest.approx(gonio.spectrum_figures(lamp["wavelengths_nm"], lamp["power"])["cct"], abs=0.5)
+    path.write_text(path.read_text().replace('w="500.0"', 'w="400"'))
+    told = str(load(tmp_path, "SphereLight", body).diagnostics)
+    assert "lamp.xml" in told and "its spectrum is left out: 400 nm after" in told

@@ -30,8 +30,8 @@ pub(crate) struct PhotometryOptions {
     /// Draw the cone diagram: illuminance and the beam's diameter at 1 to 5 m.
     #[arg(long, value_name = "FILE.svg|FILE.png")]
     pub(crate) cone: Option<PathBuf>,
-    /// Write the luminaire as LM-63-2002 or EULUMDAT.
-    #[arg(long, value_name = "FILE.ies|FILE.ldt")]
+    /// Write the luminaire as LM-63-2002, EULUMDAT or TM-33, which alone has its spectrum.
+    #[arg(long, value_name = "FILE.ies|FILE.ldt|FILE.xml")]
     pub(crate) convert: Option<PathBuf>,
     /// Take the file's alternative lamps of this number, from 1.
     #[arg(long = "lamp-set", value_name = "NUMBER", value_parser = clap::value_parser!(u32).range(1..))]

@@ -45,7 +45,7 @@ pub(crate) struct SensorOptions {
 
 #[derive(Args, Debug)]
 pub(crate) struct SpectrumOptions {
-    /// The lamps: files of nanometres and power, IES TM-27 .spdx files, GLDF and GDTF files with all of their spectra, or names such as FL11, D65, 2700K.
+    /// The lamps: files of nanometres and power, IES TM-27 .spdx files, TM-33, GLDF and GDTF files with all of their spectra, or names such as FL11, D65, 2700K.
     #[arg(required = true, value_name = "FILE|NAME")]
     pub(crate) sources: Vec<PathBuf>,
     /// For machines: x, y, cct, duv, ra, r (R1 to R15), rf, rg, hue_bins, melanopic_der, alpha_opic, ler, notes. An object for one lamp, a list for

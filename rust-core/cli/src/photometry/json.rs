@@ -45,6 +45,11 @@ pub(super) fn as_json(options: &PhotometryOptions, goniogram: &Goniogram, figure
             "angles_deg": tilt.angles,
             "factors": tilt.factors,
         })),
+        "spectrum": goniogram.spectrum.as_ref().map(|spectrum| json!({
+            "name": spectrum.name,
+            "wavelengths_nm": spectrum.wavelengths_nm,
+            "power": spectrum.power,
+        })),
         "header": goniogram.header.iter().map(|line| [&line.keyword, &line.text]).collect::<Vec<_>>(),
         "warnings": goniogram.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
     })

@@ -18,10 +18,11 @@ use super::{
     messages::print,
 };
 use gonio::{Error, Result};
+use gonio_formats::FormatError;
 use gonio_formats::gdtf::{self, Gdtf};
 use gonio_formats::gldf::{self, Gldf, split_variant};
 use gonio_formats::photometry::{
-    Goniogram, PolarUnit, SPACINGS, Symmetry, UgrTable, beside, cone_diagram, ies, ldt, polar_diagram, read_variant,
+    Goniogram, PolarUnit, SPACINGS, Symmetry, UgrTable, beside, cone_diagram, ies, ldt, polar_diagram, read_variant, tm33,
 };
 use json::as_json;
 use std::path::Path;
@@ -40,14 +41,13 @@ pub(super) fn photometry(options: &PhotometryOptions) -> Result<i32> {
     if gldf::looks_like(&bytes) && variant.is_none() && !options.ugr_table && outputs(options).next().is_none() {
         return list(path, &bytes, options.json);
     }
-    let goniogram = load(options, path, variant, &bytes)?;
+    let mut goniogram = load(options, path, variant, &bytes)?;
     let figures = goniogram.figures();
     for (option, path, _) in outputs(options) {
         let bytes = match option {
             "polar" => drawing::encoded(polar_diagram(&goniogram, PolarUnit::CandelaPerKilolumen), path)?,
             "cone" => drawing::encoded(cone_diagram(&goniogram), path)?,
-            _ if ending(path) == "ldt" => ldt::write(&goniogram),
-            _ => ies::write(&goniogram),
+            _ => converted(&mut goniogram, path),
         };
         put(path, &bytes)?;
     }
@@ -60,6 +60,20 @@ pub(super) fn photometry(options: &PhotometryOptions) -> Result<i32> {
         as_text(&goniogram, &figures, options.front).iter().for_each(|line| print(line));
     }
     Ok(0)
+}
+
+/// The luminaire in the format of an ending; what that has no place for is told.
+fn converted(goniogram: &mut Goniogram, path: &Path) -> Vec<u8> {
+    let ending = ending(path);
+    if ending == "xml" {
+        return tm33::write(goniogram, false);
+    }
+    let bytes = if ending == "ldt" { ldt::write(goniogram) } else { ies::write(goniogram) };
+    if goniogram.spectrum.is_some() {
+        let told = format!("a .{ending} file has no place for the spectrum: it is left out there, .xml (TM-33) has it");
+        goniogram.warnings.push(FormatError::whole(told));
+    }
+    bytes
 }
 
 /// The file, and the variant of it that was asked for.
@@ -113,7 +127,7 @@ fn outputs(options: &PhotometryOptions) -> impl Iterator<Item = (&'static str, &
     let all: [(_, _, &'static [&'static str]); 3] = [
         ("polar", &options.polar, drawing::ENDINGS),
         ("cone", &options.cone, drawing::ENDINGS),
-        ("convert", &options.convert, &["ies", "ldt"]),
+        ("convert", &options.convert, &["ies", "ldt", "xml"]),
     ];
     all.into_iter().filter_map(|(option, path, endings)| Some((option, path.as_deref()?, endings)))
 }

@@ -2,6 +2,7 @@
 
 use gonio_formats::{
     photometry::{Aside, Figures, Goniogram, LampSet, Opening, OpeningShape, PhotometricType, Spread, Symmetry, Tilt},
+    spectrum::SpectralPower,
     tame,
 };
 
@@ -54,9 +55,15 @@ pub(crate) fn as_text(goniogram: &Goniogram, figures: &Figures, front: Option<f6
         lines.push(format!("lamp set {}{here}: {}", index + 1, lamps(set)));
     }
     lines.extend(goniogram.tilt.as_ref().map(tilt));
+    lines.extend(goniogram.spectrum.as_ref().map(spectrum));
     lines.extend(goniogram.warnings.iter().map(|warning| format!("warning: {warning}")));
     // Texts of a file must not reach into the terminal.
     lines.iter().map(|line| tame(line)).collect()
+}
+
+fn spectrum(found: &SpectralPower) -> String {
+    let [first, last] = [found.wavelengths_nm.first(), found.wavelengths_nm.last()].map(|nm| nm.copied().unwrap_or(0.0));
+    format!("spectrum: {} points from {first} to {last} nm (gonio spectrum has its figures)", found.power.len())
 }
 
 fn spreads([c0, c90]: &[Spread; 2]) -> String {

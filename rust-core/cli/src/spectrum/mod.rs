@@ -16,6 +16,7 @@ use gonio_formats::{
     FormatError,
     gdtf::{self, Gdtf, GdtfEmitter},
     gldf::{self, Gldf, GldfSpectrum},
+    photometry::tm33,
     tame,
 };
 use gonio_spectrum::{Figures, NAMES, Spectrum, figures, named, read, spectrum_drawing};
@@ -74,6 +75,9 @@ fn lamps(source: &Path) -> Result<Vec<Lamp>> {
             if gldf::looks_like(&bytes) {
                 return of_product(source, &bytes).map_err(|error| Error::in_file(source, &error));
             }
+            if tm33::looks_like(&bytes) {
+                return of_luminaire(source, &bytes).map_err(|error| Error::in_file(source, &error));
+            }
             let name = source.file_name().unwrap_or_default().to_string_lossy();
             read(&bytes, &name).map_err(|error| Error::in_file(source, &error))?
         }
@@ -93,6 +97,16 @@ fn lamp(asked: String, spectrum: Spectrum) -> Lamp {
     Lamp { asked, spectrum, figures }
 }
 
+/// The spectra of a TM-33 file's emitters; of several each under its name.
+fn of_luminaire(source: &Path, bytes: &[u8]) -> std::result::Result<Vec<Lamp>, FormatError> {
+    let found = tm33::spectra(bytes)?;
+    let asked = |name: &str| {
+        let file = source.display();
+        if found.len() == 1 || name.is_empty() { file.to_string() } else { format!("{file}: {}", tame(name)) }
+    };
+    found.iter().map(|spectrum| Ok(lamp(asked(&spectrum.name), Spectrum::of(spectrum.clone())?))).collect()
+}
+
 /// The spectra of a GLDF file, each under its identifier, or of a GDTF file's emitters under their names.
 fn of_product(source: &Path, bytes: &[u8]) -> std::result::Result<Vec<Lamp>, FormatError> {
     if gdtf::is_fixture(bytes, &source.to_string_lossy()) {
@@ -102,15 +116,12 @@ fn of_product(source: &Path, bytes: &[u8]) -> std::result::Result<Vec<Lamp>, For
     if product.spectra.is_empty() {
         return Err(FormatError::whole("the product has no spectrum"));
     }
-    let spectrum = |found: &GldfSpectrum| {
-        let bytes = match found.file {
-            Some(file) => product.file(file)?,
-            None => found.values.iter().map(|(nm, value)| format!("{nm};{value}\n")).collect::<String>().into_bytes(),
-        };
-        let read = read(&bytes, &found.id).map_err(|error| FormatError::whole(format!("spectrum {}: {error}", found.id)))?;
+    let spectrum = |(index, found): (usize, &GldfSpectrum)| {
+        let read = product.spectrum(index).and_then(Spectrum::of);
+        let read = read.map_err(|error| FormatError::whole(format!("spectrum {}: {error}", tame(&found.id))))?;
         Ok(lamp(format!("{}: {}", source.display(), found.id), read))
     };
-    product.spectra.iter().map(spectrum).collect()
+    product.spectra.iter().enumerate().map(spectrum).collect()
 }
 
 fn of_fixture(source: &Path, bytes: &[u8]) -> std::result::Result<Vec<Lamp>, FormatError> {

@@ -46,12 +46,18 @@ impl LampSpectra {
     pub(super) fn of(scene: &Scene, diagnostics: &mut Vec<Diagnostic>) -> Self {
         let mut all = Self::default();
         for light in &scene.lights {
-            let number = match &light.spectrum {
+            // Pictures in red, green and blue have spectra that were asked for alone.
+            let spectrum = if scene.settings.spectral { light.lamp_spectrum() } else { light.spectrum.as_ref() };
+            let number = match spectrum {
                 Some(spectrum) => all.number(&light.origin, spectrum, diagnostics),
                 None if scene.settings.spectral => all.of_colours.number(light, diagnostics),
                 None => 0,
             };
             all.of_light.push(number);
+            if scene.settings.spectral && light.colour_hides_spectrum() {
+                let told = "the light's colour stands for the spectrum that its file has: with white it has that";
+                diagnostics.push(Diagnostic::info(&light.origin, told));
+            }
         }
         for material in &scene.materials {
             let number = material.spectrum.as_ref().map_or(0, |spectrum| all.number(&material.origin, spectrum, diagnostics));

@@ -14,7 +14,7 @@ pub(crate) fn readers() -> Vec<Reader> {
             memory: 1 << 20,
         },
         Reader { name: "ldt", seeds: ldt_seeds, read: |bytes| ldt::read(bytes).is_ok(), memory: 1 << 20 },
-        Reader { name: "tm33", seeds: tm33_seeds, read: |bytes| tm33::read(bytes).is_ok(), memory: 1 << 20 },
+        Reader { name: "tm33", seeds: tm33_seeds, read: |bytes| tm33::read(bytes).is_ok() | tm33::spectra(bytes).is_ok(), memory: 1 << 20 },
         // Resampling to type C has a grid of its own size.
         Reader {
             name: "goniogram",
@@ -77,7 +77,18 @@ fn tm33_seeds() -> Vec<Vec<u8>> {
     let areas = "<EmissionAreas><BottomFace><NumberBottom>1</NumberBottom><BottomArea><Length>600</Length><Width>300</Width>\
                  <Circular>true</Circular></BottomArea></BottomFace></EmissionAreas></Emitter>";
     let with_areas = |bytes: Vec<u8>| String::from_utf8_lossy(&bytes).replace("</Emitter>", areas).into_bytes();
-    ies_seeds().into_iter().filter_map(|bytes| write(bytes).ok()).map(with_areas).collect()
+    let points: String = (0..21).map(|k| format!("<PwrData w=\"{}\">1.5</PwrData>\n", 380 + 20 * k)).collect();
+    let spectral = format!("<SpectralData><EmitterSpectral>{points}</EmitterSpectral></SpectralData></Emitter>");
+    let radiant = "<RadiantData><MinWavelength>380</MinWavelength><MaxWavelength>780</MaxWavelength><RadiantIntensity>";
+    let in_watts = |bytes: &Vec<u8>| {
+        let text = String::from_utf8_lossy(bytes).replace("</Emitter>", &spectral);
+        text.replace("<LuminousData>\n<LuminousIntensity>", radiant)
+            .replace("LuminousIntensity", "RadiantIntensity")
+            .replace("</LuminousData>", "</RadiantData>")
+            .into_bytes()
+    };
+    let luminous: Vec<Vec<u8>> = ies_seeds().into_iter().filter_map(|bytes| write(bytes).ok()).map(with_areas).collect();
+    luminous.iter().map(in_watts).chain(luminous.clone()).collect()
 }
 
 fn ldt_seeds() -> Vec<Vec<u8>> {

@@ -67,6 +67,7 @@ impl Gdtf {
             tilt: None,
             stated: Stated::default(),
             header: vec![line("MANUFAC", &self.manufacturer), line("LUMINAIRE", &self.name)],
+            spectrum: None,
             warnings: Vec::new(),
         };
         let own = unit.flux();

@@ -1,10 +1,12 @@
 //! One of a product's variants, and its files.
 
-use super::{FilePlace, Gldf, Variant};
+use super::{FilePlace, Gldf, PRODUCT, Variant};
 use crate::archive::{inside, some_of};
 use crate::error::{FormatError, Result};
 use crate::photometry::text::quote;
 use crate::photometry::{Goniogram, read_single};
+use crate::spectrum::{SpectralPower, read_text};
+use crate::xml::text_of;
 
 impl Gldf<'_> {
     /// The place of the variant that is meant: by its name in any language, order number, GTIN or identifier, else its number from 1; without a
@@ -50,6 +52,20 @@ impl Gldf<'_> {
                 Err(inside(address, &FormatError::whole(problem)))
             }
         }
+    }
+
+    /// A spectrum of a light source by its place in [`Self::spectra`], with its identifier as its name.
+    ///
+    /// # Errors
+    /// As [`Self::file`], and what is no spectrum, with its line in the product or in the file inside the archive.
+    pub fn spectrum(&self, index: usize) -> Result<SpectralPower> {
+        let found = self.spectra.get(index).ok_or_else(|| FormatError::whole(format!("the product has no spectrum {}", index + 1)))?;
+        let Some(file) = found.file else {
+            return SpectralPower::new(&found.id, &found.values).map_err(|error| inside(PRODUCT, &error));
+        };
+        let bytes = self.file(file)?;
+        let name = self.files[file].place.as_str();
+        text_of(&bytes).and_then(|text| read_text(&text, &found.id)).map_err(|error| inside(name, &error))
     }
 
     /// The goniogram of a file of photometry, as that file has it.

@@ -13,6 +13,7 @@ mod write;
 
 use crate::archive::Archive;
 use crate::error::FormatError;
+use crate::spectrum::SpectralPoint;
 
 pub use light::{Emergency, Light, RatedFlux};
 pub use write::{NewProduct, ProductColour, ProductFigures};
@@ -81,8 +82,8 @@ pub struct GldfSpectrum {
     pub id: String,
     /// The file of wavelengths and values, by its place in [`Gldf::files`].
     pub file: Option<usize>,
-    /// Wavelengths in nm with values of any unit, where the product lists them itself.
-    pub values: Vec<(f64, f64)>,
+    /// Wavelengths with power of any unit, where the product lists them itself.
+    pub values: Vec<SpectralPoint>,
 }
 
 /// What shines, or senses, as one.

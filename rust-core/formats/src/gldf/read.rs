@@ -6,6 +6,7 @@ use super::{EmitterUse, FilePlace, Gldf, GldfFile, GldfSpectrum, PRODUCT, Simple
 use crate::archive::{Archive, inside, some_of};
 use crate::error::{FormatError, Result};
 use crate::photometry::text::{parse, quote};
+use crate::spectrum::SpectralPoint;
 use crate::xml::{LineNumbers, at, attribute, children, content, descend, document, tag, text_at, text_of};
 use roxmltree::Node;
 use std::collections::HashMap;
@@ -139,8 +140,7 @@ fn spectra(general: Option<Node<'_, '_>>, files: &ById<usize>, notes: &mut Notes
     for node in listed.into_iter().flat_map(|spectra| children(spectra, "Spectrum")) {
         let named = descend(node, &["SpectrumFileReference"]);
         let file = named.and_then(|named| files.get(attribute(named, "fileId")).copied());
-        let values: Vec<(f64, f64)> =
-            children(node, "Intensity").filter_map(|node| Some((parse(attribute(node, "wavelength"))?, parse(content(node))?))).collect();
+        let values: Vec<SpectralPoint> = children(node, "Intensity").filter_map(|node| intensity(node, notes)).collect();
         if file.is_none() && values.is_empty() {
             notes.warn(node, format!("the spectrum {} has neither a file nor values", quote(attribute(node, "id"))));
         }
@@ -148,6 +148,16 @@ fn spectra(general: Option<Node<'_, '_>>, files: &ById<usize>, notes: &mut Notes
         spectra.push(GldfSpectrum { id: attribute(node, "id").to_owned(), file, values });
     }
     (spectra, ids)
+}
+
+/// A wavelength in nm and its power.
+fn intensity(node: Node<'_, '_>, notes: &mut Notes) -> Option<SpectralPoint> {
+    let (nm, power) = (attribute(node, "wavelength"), content(node));
+    if let (Some(nm), Some(power)) = (parse(nm), parse(power)) {
+        return Some(SpectralPoint { nm, power, line: Some(notes.lines.line(node)) });
+    }
+    notes.warn(node, format!("the intensity {} at the wavelength {} is left out, expected numbers", quote(power), quote(nm)));
+    None
 }
 
 /// What variants refer to.

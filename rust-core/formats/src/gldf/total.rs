@@ -7,6 +7,7 @@ use crate::l3d::L3d;
 use crate::photometry::check::TOLERANCE;
 use crate::photometry::text::{number, quote};
 use crate::photometry::{Goniogram, HeaderLine, LampSet};
+use crate::spectrum::SpectralPower;
 use std::collections::BTreeMap;
 
 /// Photometries of one variant: each is read, and all of their angles come together.
@@ -55,6 +56,7 @@ impl Gldf<'_> {
         total.lamp_sets = vec![lamps(&lights, &total, watts)];
         total.lamp_set = 0;
         total.header = self.header(variant, total.header);
+        total.spectrum = self.light_of_one_spectrum(&lights, &mut warnings).or(total.spectrum.take());
         total.warnings.extend(warnings);
         Ok(total)
     }
@@ -119,6 +121,18 @@ impl Gldf<'_> {
             parts.watts = parts.watts.zip(light.watts).map(|(sum, watts)| sum + watts);
         }
         Ok(parts)
+    }
+
+    /// The spectrum that all of the lights have; what cannot be used, and spectra of which there are several, is told and left out.
+    fn light_of_one_spectrum(&self, lights: &[&Light], warnings: &mut Vec<FormatError>) -> Option<SpectralPower> {
+        let first = lights.iter().find_map(|light| light.spectrum)?;
+        if lights.iter().any(|light| light.spectrum != Some(first)) {
+            warnings.push(FormatError::whole("its lights are not all of one spectrum: none is taken"));
+            return None;
+        }
+        let left_out =
+            |error: FormatError| warnings.push(FormatError { problem: format!("its spectrum is left out: {}", error.problem), ..error });
+        self.spectrum(first).map_err(left_out).ok()
     }
 
     /// The head of the photometry, under the names of the product.

@@ -1,7 +1,7 @@
 //! The data of a goniogram, as plain as the files' own.
 
 use super::Opening;
-use crate::FormatError;
+use crate::{FormatError, spectrum::SpectralPower};
 use serde::{Deserialize, Serialize};
 
 /// Luminous intensity of a luminaire by direction, with what its maker says of it.
@@ -37,6 +37,8 @@ pub struct Goniogram {
     pub stated: Stated,
     /// Texts of the file's head, in its order.
     pub header: Vec<HeaderLine>,
+    /// The spectrum of its light, where the file has one.
+    pub spectrum: Option<SpectralPower>,
     /// What was repaired or is doubtful, with line numbers.
     pub warnings: Vec<FormatError>,
 }

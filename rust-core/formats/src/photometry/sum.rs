@@ -12,7 +12,8 @@ const STEP: f64 = 1e-3;
 
 impl Goniogram {
     /// The light of luminaires together, each times a factor, in one frame and as seen from afar. One alone keeps its angles, types A and B too.
-    /// Of several the grid has the angles of all, on which sums of bilinear intensities are exact; what is no light comes from the strongest.
+    /// Of several the grid has the angles of all, on which sums of bilinear intensities are exact; what is no light comes from the strongest, a spectrum where all
+    /// have it.
     ///
     /// # Errors
     /// None, or so many angles together that no grid holds them.
@@ -41,6 +42,7 @@ impl Goniogram {
             lamp_set: 0,
             tilt: None,
             stated: Stated::default(),
+            spectrum: strongest.0.spectrum.clone().filter(|one| parts.iter().all(|(part, _)| part.spectrum.as_ref() == Some(one))),
             warnings: parts.iter().flat_map(|(part, _)| part.warnings.clone()).collect(),
             ..strongest.0.clone()
         };

@@ -1,11 +1,7 @@
 //! Lines of wavelength and power: commas, semicolons, tabs or blanks between numbers, decimal commas where these leave them free.
 
-use super::quoted;
-use crate::{
-    check::{MOST, checked},
-    source::{Point, Spectrum},
-};
-use gonio_formats::FormatError;
+use super::{MOST, SpectralPoint, SpectralPower, quoted};
+use crate::error::{FormatError, Result};
 
 /// What begins a comment.
 const COMMENTS: [&str; 4] = ["#", "%", "//", "!"];
@@ -22,9 +18,12 @@ enum Line<'a> {
     Unclear,
 }
 
-/// Reads the text.
-pub(super) fn read(text: &str, name: &str) -> Result<Spectrum, FormatError> {
-    let mut points: Vec<Point> = Vec::new();
+/// Reads lines of wavelength in nm and power. `name` is what it is called.
+///
+/// # Errors
+/// What is no such text, and what [`SpectralPower::new`] refuses, with the line.
+pub fn read_text(text: &str, name: &str) -> Result<SpectralPower> {
+    let mut points: Vec<SpectralPoint> = Vec::new();
     // The first words behind numbers: a file may end with some.
     let mut words: Option<(u64, &str)> = None;
     let mut more = 0;
@@ -38,7 +37,7 @@ pub(super) fn read(text: &str, name: &str) -> Result<Spectrum, FormatError> {
                 if let Some((at, text)) = words {
                     return Err(FormatError::line(at, format!("{} amid the numbers, expected wavelength in nm and power", quoted(text))));
                 }
-                points.push(Point { nm, power, line: Some(number) });
+                points.push(SpectralPoint { nm, power, line: Some(number) });
                 more = more.max(columns);
                 if points.len() > MOST {
                     return Err(FormatError::line(number, format!("more than {MOST} points: no spectrum of a lamp")));
@@ -60,7 +59,7 @@ pub(super) fn read(text: &str, name: &str) -> Result<Spectrum, FormatError> {
     if points.is_empty() {
         return Err(FormatError::whole("no line of wavelength in nm and power; expected such lines or TM-27's XML"));
     }
-    let mut spectrum = checked(name, points)?;
+    let mut spectrum = SpectralPower::new(name, &points)?;
     if more > 0 {
         let last = more + 2;
         let which = if more == 1 { "column 3 is".to_owned() } else { format!("columns 3 to {last} are") };

@@ -1,6 +1,7 @@
 //! Variants and their light, by closed forms: Lambertian luminaires of known flux.
 
-use crate::{close, gldf};
+use crate::zip::archive;
+use crate::{GENERAL, VARIANTS, close, downlight, gldf, product};
 use gonio_formats::gldf::{Emergency, FilePlace, Gldf, RatedFlux, split_variant};
 use gonio_formats::photometry::{Goniogram, ies, ldt, read, read_variant};
 
@@ -27,9 +28,10 @@ fn a_product_says_who_made_what() {
     assert_eq!((light.rated, light.watts), (Some(RatedFlux::Luminaire(1000.0)), Some(10.0)));
     assert_eq!((light.temperature, light.rendering, light.spectrum), (Some(3000.0), Some(90.0), Some(0)));
     assert_eq!((light.emergency, light.emergency_factor), (Emergency::Combined, Some(0.1)));
-    assert_eq!(product.spectra[1].values, [(450.0, 0.5), (650.0, 1.0)]);
+    let values: Vec<(f64, f64)> = product.spectra[1].values.iter().map(|point| (point.nm, point.power)).collect();
+    assert_eq!(values, [(450.0, 0.5), (650.0, 1.0)]);
     assert_eq!(product.files[3].place, FilePlace::Address("https://example.org/lamp.png".into()));
-    assert_eq!(product.files[4].size, Some(12));
+    assert_eq!(product.files[4].size, Some(126));
 }
 
 #[test]
@@ -45,6 +47,40 @@ fn a_variant_is_its_photometry_under_the_product_s_names() {
     for again in [ies::read(&ies::write(&plain)).unwrap(), ldt::read(&ldt::write(&plain)).unwrap()] {
         close(again.flux(), 1000.0, 1e-6);
     }
+}
+
+#[test]
+fn a_variant_has_the_spectrum_that_all_its_lights_have() {
+    let plain = light("plain").spectrum.unwrap();
+    assert_eq!((plain.name.as_str(), plain.wavelengths_nm.len(), plain.power[11]), ("s1", 21, 1.0));
+    assert_eq!(light("both").spectrum, Some(plain));
+    assert_eq!(light("tubes").spectrum, None);
+    let changed = |from: &str, to: &str| {
+        let text = product(GENERAL, VARIANTS);
+        assert!(text.contains(from), "{from}");
+        let bytes = archive(&[("product.xml", text.replacen(from, to, 1).as_bytes()), ("ldc/down.ies", &downlight(1000.0))]);
+        let found = read(&bytes, "lamp.gldf#plain").unwrap();
+        (found.spectrum.is_some(), warnings(&found).join("; "))
+    };
+    let inside = |points: &str| changed("<SpectrumFileReference fileId=\"power\"/>", points);
+    let row = |nm: u32, power: f64| format!("<Intensity wavelength=\"{nm}\">{power}</Intensity>\n");
+    let listed: String = (0..41).map(|k| row(380 + 10 * k, 1.0)).collect();
+    assert_eq!(inside(&listed), (true, String::new()));
+    for (points, told) in [
+        (listed.replace("\"500\"", "\"480\""), "its spectrum is left out: product.xml: line 29: 480 nm after 490 nm"),
+        (listed.replace("\"500\">1<", "\"500\">-1<"), "its spectrum is left out: product.xml: line 29: power -1 at 500 nm"),
+        (
+            (0..9).map(|k| row(380 + 50 * k, 1.0)).collect(),
+            "its spectrum is left out: product.xml: line 18: nothing between 380 and 430 nm",
+        ),
+    ] {
+        let (has, found) = inside(&points);
+        assert!(!has && found.starts_with(told), "{found}");
+    }
+    let (has, found) = changed("spectrumId=\"s1\"", "spectrumId=\"s2\"");
+    assert!(!has && found.contains("product.xml: line 18: 2 points of wavelength and power"), "{found}");
+    // Without the file in the archive.
+    assert!(changed("<Name>", "<Name>").1.contains("spectrum/power.txt"));
 }
 
 #[test]

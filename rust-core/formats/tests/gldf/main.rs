@@ -126,7 +126,7 @@ fn gldf() -> Vec<u8> {
         ("ldc/down.ies", &downlight(1000.0)),
         ("ldc/up.ies", &ies(500.0, 180.0)),
         ("geo/body.l3d", &model),
-        ("spectrum/power.txt", b"380 1\n780 1\n"),
+        ("spectrum/power.txt", b"380 1\n400 1\n420 1\n440 1\n460 2\n480 1\n500 1\n520 1\n540 1\n560 1\n580 1\n600 4\n620 1\n640 1\n660 1\n680 1\n700 1\n720 1\n740 1\n760 1\n780 1\n"),
     ])
 }
 

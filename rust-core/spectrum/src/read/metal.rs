@@ -1,8 +1,11 @@
 //! Files of a metal's n and k: rows of wavelength, n and k, or a block of n and one of k, as the refractiveindex.info database gives them.
 
-use super::{LONGEST, cells, decoded, quoted};
-use crate::{check::MOST, metal::MetalIndex, table::linear};
-use gonio_formats::FormatError;
+use super::{LONGEST, cells, decoded};
+use crate::{metal::MetalIndex, table::linear};
+use gonio_formats::{
+    FormatError,
+    spectrum::{MOST, quoted},
+};
 
 /// Wavelengths below this are micrometres: no light that is seen has so few nm.
 const MICROMETRES: f64 = 50.0;

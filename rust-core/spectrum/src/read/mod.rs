@@ -3,19 +3,15 @@
 pub(crate) mod metal;
 pub(crate) mod response;
 mod spdx;
-mod text;
 
 use crate::source::Spectrum;
-use gonio_formats::FormatError;
+use gonio_formats::{FormatError, photometry::tm33, spectrum::read_text};
 
 /// The longest file in bytes: a thousand times the longest of a spectrometer.
 const LONGEST: usize = 64 << 20;
 
-/// Letters of a file that messages show.
-const SHOWN: usize = 40;
-
-/// Reads a file's bytes: IES TM-27 (`.spdx`) where an XML document begins, else lines of nanometres and power. `name` is what it is called
-/// unless the file says.
+/// Reads a file's bytes: IES TM-27 (`.spdx`) or TM-33 where an XML document begins, else lines of nanometres and power. `name` is what it is called
+/// unless the file says. Of several spectra the first is read.
 ///
 /// # Errors
 /// What is no such file, and what [`Spectrum::new`] refuses, with the line.
@@ -24,7 +20,25 @@ pub fn read(bytes: &[u8], name: &str) -> Result<Spectrum, FormatError> {
         return Err(FormatError::whole(format!("more than {LONGEST} bytes: no spectrum's file")));
     }
     let text = decoded(bytes)?;
-    if text.trim_start().starts_with('<') { spdx::read(&text, name) } else { text::read(&text, name) }
+    if !text.trim_start().starts_with('<') {
+        return Spectrum::of(read_text(&text, name)?);
+    }
+    if tm33::looks_like(text.as_bytes()) { of_luminaire(&text, name) } else { spdx::read(&text, name) }
+}
+
+/// The first spectrum of a TM-33 luminaire.
+fn of_luminaire(text: &str, name: &str) -> Result<Spectrum, FormatError> {
+    let found = tm33::spectra(text.as_bytes())?;
+    let count = found.len();
+    let first = found.into_iter().next().ok_or_else(|| FormatError::whole("no spectrum"))?;
+    let mut spectrum = Spectrum::of(first)?;
+    if spectrum.name.is_empty() {
+        name.clone_into(&mut spectrum.name);
+    }
+    if count > 1 {
+        spectrum.notes.insert(0, format!("1 of {count} spectra is read"));
+    }
+    Ok(spectrum)
 }
 
 /// UTF-8, UTF-16 with its mark as spreadsheets write it, else Latin-1.
@@ -48,10 +62,4 @@ fn decoded(bytes: &[u8]) -> Result<String, FormatError> {
 /// What a line holds between commas, semicolons, tabs and blanks.
 fn cells(line: &str) -> Vec<&str> {
     line.split([',', ';', '\t', ' ']).map(str::trim).filter(|cell| !cell.is_empty()).collect()
-}
-
-/// A part of a file for messages.
-fn quoted(text: &str) -> String {
-    let short: String = text.trim().chars().take(SHOWN).map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect();
-    if text.trim().chars().count() > SHOWN { format!("'{short}…'") } else { format!("'{short}'") }
 }

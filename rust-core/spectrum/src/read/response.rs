@@ -1,8 +1,11 @@
 //! Response curves of cameras and other sensors: a table of wavelengths with a column for each channel.
 
-use super::{LONGEST, cells, decoded, quoted};
-use crate::{check::MOST, table::linear};
-use gonio_formats::FormatError;
+use super::{LONGEST, cells, decoded};
+use crate::table::linear;
+use gonio_formats::{
+    FormatError,
+    spectrum::{MOST, quoted},
+};
 
 /// The most channels of a sensor.
 const MOST_CHANNELS: usize = 64;

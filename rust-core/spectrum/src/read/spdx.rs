@@ -1,11 +1,10 @@
 //! IES TM-27-14 and -20 (`.spdx`): the first spectral distribution of the document.
 
-use super::quoted;
-use crate::{
-    check::{MOST, checked},
-    source::{Point, Spectrum},
+use crate::{check::checked, source::Spectrum};
+use gonio_formats::{
+    FormatError,
+    spectrum::{MOST, SpectralPoint, quoted},
 };
-use gonio_formats::FormatError;
 use roxmltree::{Document, Node, ParsingOptions};
 
 /// What the root's name begins with: the edition follows.
@@ -33,7 +32,7 @@ pub(super) fn read(text: &str, name: &str) -> Result<Spectrum, FormatError> {
     }
     let points = points(distribution, text)?;
     let title = ["Description", "CatalogNumber", "Manufacturer"].iter().find_map(|key| header(root, key));
-    let mut spectrum = checked(title.unwrap_or(name), points)?;
+    let mut spectrum = checked(title.unwrap_or(name), &points)?;
     if others > 0 {
         spectrum.notes.insert(0, format!("1 of {} spectral distributions is read", others + 1));
     }
@@ -41,7 +40,7 @@ pub(super) fn read(text: &str, name: &str) -> Result<Spectrum, FormatError> {
 }
 
 /// The distribution's points. Lines are counted on the way, since a document counts them from its start each time.
-fn points(distribution: Node<'_, '_>, text: &str) -> Result<Vec<Point>, FormatError> {
+fn points(distribution: Node<'_, '_>, text: &str) -> Result<Vec<SpectralPoint>, FormatError> {
     let [mut from, mut line] = [0, 1];
     let mut points = Vec::new();
     for node in distribution.children().filter(|node| node.tag_name().name() == "SpectralData") {
@@ -49,15 +48,15 @@ fn points(distribution: Node<'_, '_>, text: &str) -> Result<Vec<Point>, FormatEr
         line += text.as_bytes()[from..start].iter().filter(|byte| **byte == b'\n').count();
         from = start;
         let point = point(node).map_err(|problem| FormatError::line(line as u64, problem))?;
-        points.push(Point { line: Some(line as u64), ..point });
+        points.push(SpectralPoint { line: Some(line as u64), ..point });
     }
     Ok(points)
 }
 
-fn point(node: Node<'_, '_>) -> Result<Point, String> {
+fn point(node: Node<'_, '_>) -> Result<SpectralPoint, String> {
     let wavelength = node.attribute("wavelength").ok_or("SpectralData without a wavelength")?;
     let number = |text: &str, what: &str| text.trim().parse().map_err(|_| format!("{what} {} is no number", quoted(text)));
-    Ok(Point { nm: number(wavelength, "wavelength")?, power: number(node.text().unwrap_or_default(), "power")?, line: None })
+    Ok(SpectralPoint { nm: number(wavelength, "wavelength")?, power: number(node.text().unwrap_or_default(), "power")?, line: None })
 }
 
 fn child_text<'a>(node: Node<'a, '_>, name: &str) -> Option<&'a str> {

@@ -81,3 +81,36 @@ def test_a_material_shines_by_its_spectrum(tmp_path: Path):
     made, report = exporter()
     assert [material["spectrum"] for material in made.sync(depsgraph()).materials if "spectrum" in material] == [None]
     assert any("no such lamp" in each.text and "keeps its colour" in each.text for each in report.diagnostics)
+
+
+@pytest.mark.blender
+def test_a_luminaires_file_brings_its_spectrum(tmp_path: Path):
+    """A TM-33 file's spectrum stands on the exported light; the lamp's own setting comes first."""
+    import gonio
+    import scenes
+    from recorder import depsgraph, exporter
+
+    lamp = gonio.illuminant("LED-B3")
+    grid = "".join(f'<IntData h="0" v="{v}">100</IntData>' for v in (0, 90, 180))
+    rows = "".join(f'<PwrData w="{nm}">{power}</PwrData>' for nm, power in zip(lamp["wavelengths_nm"], lamp["power"], strict=True))
+    data = f"<LuminousData><LuminousIntensity>{grid}</LuminousIntensity></LuminousData><SpectralData><EmitterSpectral>{rows}</EmitterSpectral></SpectralData>"
+    path = tmp_path / "lamp.xml"
+    path.write_text(f"<IESTM33-22><Emitter><Description>lamp</Description>{data}</Emitter></IESTM33-22>")
+    scene = scenes.lit_floor(samples=256, width=16, height=16)
+    settings = next(thing for thing in scene.objects if thing.type == "LIGHT").data.gonio
+    settings.use_photometry, settings.unit, settings.file = True, "FILE", str(path)
+    made, report = exporter()
+    [light] = made.sync(depsgraph()).lights
+    assert not report.diagnostics and "spectrum" not in light
+    assert light["goniogram"]["spectrum"]["wavelengths_nm"] == pytest.approx(lamp["wavelengths_nm"])
+
+    def red_over_blue(*, spectral: bool):
+        scene.gonio.spectral = spectral
+        scenes.render(tmp_path / "a.exr")
+        layers = scenes.read(tmp_path / "a.exr")
+        return float(layers["ViewLayer.Combined.R"].mean() / layers["ViewLayer.Combined.B"].mean())
+
+    assert red_over_blue(spectral=False) == pytest.approx(1.0, abs=1e-3)
+    warm = red_over_blue(spectral=True)
+    settings.spectrum = "LED-B3"
+    assert warm == pytest.approx(red_over_blue(spectral=True), rel=0.02) and warm > 1.5

@@ -19,9 +19,10 @@ impl Lamps {
         materials.dedup();
         let shining = materials.iter().filter_map(|index| scene.materials.get(*index)).filter(|material| material.shines());
         let mut found: Vec<Option<Arc<LampSpectrum>>> = Vec::new();
-        for spectrum in scene.lights.iter().map(|light| &light.spectrum).chain(shining.map(|material| &material.spectrum)) {
-            if !found.contains(spectrum) {
-                found.push(spectrum.clone());
+        let of_lights = scene.lights.iter().map(|light| light.lamp_spectrum().cloned());
+        for spectrum in of_lights.chain(shining.map(|material| material.spectrum.clone())) {
+            if !found.contains(&spectrum) {
+                found.push(spectrum);
             }
         }
         Self(found)

@@ -45,7 +45,7 @@ fn by_colour_alone(scene: &Scene) -> impl Iterator<Item = &Light> {
 
 /// Lights that shine without a spectrum, of which the spectra of their colours may be known.
 fn without_spectra(scene: &Scene) -> impl Iterator<Item = &Light> {
-    scene.lights.iter().filter(|light| light.spectrum.is_none() && shines(light))
+    scene.lights.iter().filter(|light| light.lamp_spectrum().is_none() && shines(light))
 }
 
 /// Materials of surfaces that shine without a spectrum.

@@ -21,7 +21,7 @@ pub(super) struct SourceScene {
 /// A lamp's spectrum that cannot be used.
 pub(super) fn by_spectrum(scene: &Scene) -> Result<Vec<SourceScene>> {
     let mut known: Vec<&Arc<LampSpectrum>> = Vec::new();
-    let of_lights = scene.lights.iter().filter(|light| shines(light)).filter_map(|light| light.spectrum.as_ref());
+    let of_lights = scene.lights.iter().filter(|light| shines(light)).filter_map(Light::lamp_spectrum);
     let of_surfaces = scene.materials.iter().filter(|material| material.shines()).filter_map(|material| material.spectrum.as_ref());
     for spectrum in of_lights.chain(of_surfaces) {
         if !known.contains(&spectrum) {
@@ -31,13 +31,13 @@ pub(super) fn by_spectrum(scene: &Scene) -> Result<Vec<SourceScene>> {
     let of_lamps = known.iter().map(|spectrum| of_lamp(scene, spectrum)).collect::<Result<Vec<_>>>()?;
     let has_others = known.is_empty() || without_spectra(scene).next().is_some() || scene.shines_without_spectra();
     let others = || scene.with_surfaces(|material| material.spectrum.is_none());
-    let of_daylight = || Ok(SourceScene { scene: alone(others(), |light| light.spectrum.is_none()), spectrum: daylight()? });
+    let of_daylight = || Ok(SourceScene { scene: alone(others(), |light| light.lamp_spectrum().is_none()), spectrum: daylight()? });
     let daylight: Option<SourceScene> = has_others.then(of_daylight).transpose()?;
     Ok(of_lamps.into_iter().chain(daylight).collect())
 }
 
 fn of_lamp(scene: &Scene, spectrum: &Arc<LampSpectrum>) -> Result<SourceScene> {
-    let is_of = |light: &Light| light.spectrum.as_ref() == Some(spectrum);
+    let is_of = |light: &Light| light.lamp_spectrum() == Some(spectrum);
     let is_of_it = |material: &Material| material.spectrum.as_ref() == Some(spectrum);
     let lights = scene.lights.iter().filter(|light| is_of(light)).map(|light| &light.origin);
     let surfaces = scene.materials.iter().filter(|material| is_of_it(material)).map(|material| &material.origin);

@@ -86,6 +86,7 @@ pub fn read_with(bytes: &[u8], beside: &mut Beside<'_>) -> Result<Goniogram> {
         tilt,
         stated: Stated::default(),
         header,
+        spectrum: None,
         warnings,
     };
     goniogram.check();

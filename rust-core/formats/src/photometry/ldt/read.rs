@@ -75,6 +75,7 @@ pub fn read(bytes: &[u8]) -> Result<Goniogram> {
         tilt: None,
         stated,
         header,
+        spectrum: None,
         warnings: fields.warnings,
     };
     goniogram.check();

@@ -125,6 +125,7 @@ impl Measurement {
             tilt: None,
             stated: Stated { light_output_ratio: emits.then(|| (self.flux / self.source_flux).min(1.0)), ..Stated::default() },
             header: self.header(),
+            spectrum: None,
             warnings: Vec::new(),
         }
     }

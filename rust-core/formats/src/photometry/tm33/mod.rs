@@ -10,13 +10,20 @@
 //!   above 20.
 //! - `EmissionAreas` are read for their sizes (a `C0Area` has a length, so that the length runs along C90–C270), but not written, because
 //!   the schema does not say what offsets are from.
-//! - Radiant, photon and spectral data, illuminances, channels, tilt angles and what is regulatory are neither written nor read.
+//! - An emitter's spectrum (`EmitterSpectral`) is in nm and power, relative as written. One with a `Quantum` is left out, because the schema does not say
+//!   what that counts, and so are spectra by angle.
+//! - Radiant and photon intensities are read where there are no luminous ones and a spectrum covers their wavelengths; they are in W/sr and in
+//!   µmol/(s sr), as published examples have them.
+//! - Illuminances, irradiances, colour by angle, channels, tilt angles and what is regulatory are neither written nor read.
 //! - Of several emitters the first with luminous intensities is read, and `Quantity` multiplies nothing.
 
+mod radiant;
 mod read;
+mod spectral;
 mod write;
 
 pub use read::read;
+pub use spectral::spectra;
 pub use write::write;
 
 /// What the root's name begins with.
@@ -26,7 +33,7 @@ const ROOT: &str = "IESTM33";
 const LONGEST_PREAMBLE: usize = 1 << 12;
 
 /// Whether the bytes are XML with such a root.
-pub(crate) fn looks_like(bytes: &[u8]) -> bool {
+pub fn looks_like(bytes: &[u8]) -> bool {
     let start = bytes.strip_prefix(&[0xef, 0xbb, 0xbf]).unwrap_or(bytes).trim_ascii_start();
     let head = &start[..start.len().min(LONGEST_PREAMBLE)];
     start.first() == Some(&b'<') && head.windows(ROOT.len()).any(|word| word == ROOT.as_bytes())

@@ -1,6 +1,7 @@
 //! The reader.
 
-use super::ROOT;
+use super::radiant::Radiant;
+use super::{ROOT, spectral};
 use crate::error::{FormatError, Result};
 use crate::photometry::arrange::arrange;
 use crate::photometry::axis::{Axis, Table};
@@ -8,7 +9,7 @@ use crate::photometry::check::Least;
 use crate::photometry::grid::{SAME, sorted};
 use crate::photometry::text::{LARGEST, decode, number, parse, quote};
 use crate::photometry::{Goniogram, HeaderLine, LampSet, Opening, OpeningShape, PhotometricType, Stated};
-use crate::xml::{at, children, content, descend, document, line, value_at};
+use crate::xml::{LineNumbers, at, children, content, descend, document, line, value_at};
 use roxmltree::Node;
 
 /// The head's elements and the keywords that they become.
@@ -25,10 +26,10 @@ const TEXTS: [(&str, &str); 7] = [
 /// Lengths above this are no metres.
 const LONGEST: f64 = 20.0;
 
-/// Reads a TM-33 file for its first emitter with luminous intensities.
+/// Reads a TM-33 file for its first emitter with luminous intensities, or without such one its first with radiant or photon intensities and a spectrum.
 ///
 /// # Errors
-/// What is no XML or has another root, no intensities, or none on a whole grid of angles.
+/// What is no XML or has another root, no intensities, none on a whole grid of angles, or none that can be candela.
 pub fn read(bytes: &[u8]) -> Result<Goniogram> {
     let text = decode(bytes)?;
     let document = document(&text)?;
@@ -38,15 +39,21 @@ pub fn read(bytes: &[u8]) -> Result<Goniogram> {
     }
     let mut warnings = Vec::new();
     let emitters: Vec<_> = children(root, "Emitter").collect();
-    let luminous = emitters.iter().find_map(|emitter| Some((*emitter, descend(*emitter, &["LuminousData", "LuminousIntensity"])?)));
-    let Some((emitter, intensity)) = luminous else {
-        return Err(at(root, "no emitter with luminous intensities was found".into()));
+    let luminous = emitters.iter().find_map(|emitter| Some((*emitter, descend(*emitter, &["LuminousData", "LuminousIntensity"])?, None)));
+    let other = || emitters.iter().find_map(|emitter| Radiant::of(*emitter).map(|found| (*emitter, found.intensity, Some(found))));
+    let Some((emitter, intensity, radiant)) = luminous.or_else(other) else {
+        return Err(at(root, "no emitter with luminous intensities was found, nor with radiant or photon intensities".into()));
     };
     if emitters.len() > 1 {
         warnings.push(FormatError::whole(format!("1 of {} emitters is read", emitters.len())));
     }
     let photometric_type = photometric_type(root);
+    let spectrum = spectral::of_emitter(emitter, &LineNumbers::new(&text), &mut warnings);
     let mut table = table(intensity, &mut warnings)?;
+    if let Some(radiant) = radiant {
+        let candela = radiant.candela(spectrum.as_ref(), &mut warnings)?;
+        table.intensities.iter_mut().for_each(|value| *value *= candela);
+    }
     table.order(&mut warnings)?;
     let symmetry = arrange(&mut table, photometric_type, &mut warnings)?;
     let body = lengths(descend(root, &["Luminaire", "Dimensions"]), ["Length", "Width", "Height"]).unwrap_or_default();
@@ -63,6 +70,7 @@ pub fn read(bytes: &[u8]) -> Result<Goniogram> {
         tilt: None,
         stated: Stated::default(),
         header: header(root),
+        spectrum,
         warnings,
     };
     goniogram.check();

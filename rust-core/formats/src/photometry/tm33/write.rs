@@ -2,6 +2,7 @@
 
 use crate::photometry::text::{is_date, number, one_line};
 use crate::photometry::{Goniogram, PhotometricType, Symmetry};
+use crate::spectrum::SpectralPower;
 use crate::svg::escape;
 use std::borrow::Cow;
 use std::fmt::Write;
@@ -63,7 +64,23 @@ fn emitter(goniogram: &Goniogram, simulated: bool) -> String {
         body += "<DataGeneration>\n<Simulation>true</Simulation>\n</DataGeneration>\n";
     }
     let flux = element("LuminousFlux", &number(goniogram.flux()));
-    format!("<Emitter>\n{body}<LuminousData>\n{}{flux}</LuminousData>\n</Emitter>\n", intensities(goniogram))
+    let spectrum = goniogram.spectrum.as_ref().map(spectral).unwrap_or_default();
+    format!("<Emitter>\n{body}<LuminousData>\n{}{flux}</LuminousData>\n{spectrum}</Emitter>\n", intensities(goniogram))
+}
+
+/// The emitter's spectrum, relative.
+fn spectral(spectrum: &SpectralPower) -> String {
+    let mut text = String::from("<SpectralData>\n<EmitterSpectral>\n");
+    if !spectrum.name.is_empty() {
+        text += &element("EmitterName", &spectrum.name);
+    }
+    text += &element("NumberWavelength", &spectrum.power.len().to_string());
+    text += &element("Normalized", "true");
+    for (nm, power) in spectrum.wavelengths_nm.iter().zip(&spectrum.power) {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "<PwrData w=\"{}\">{power}</PwrData>", number(*nm));
+    }
+    text + "</EmitterSpectral>\n</SpectralData>\n"
 }
 
 /// The colour temperature that a lamp's colour begins with, such as 3000 K.
