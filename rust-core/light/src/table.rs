@@ -83,6 +83,12 @@ fn weaken_domes(infinite: &[InfiniteLight], rows: &mut [f32]) {
 }
 
 impl LightTable {
+    /// Lets light sampling look at an even dome as at one with this image: more often where the image is bright.
+    pub fn look_at_dome_by(&mut self, light: u32, image: &LightTexture) {
+        let domes = self.infinite.iter_mut().filter(|infinite| infinite.light == light && infinite.kind == LightKind::Dome);
+        domes.for_each(|dome| dome.distribution = Some(DomeDistribution::new(image)));
+    }
+
     /// Lays out the lights; a light's index is its place in `records`. Lights without extent, power or finite values stay in the table and are
     /// never selected. A texture whose values do not fit its size counts as white.
     pub fn build(records: &[LightRecord], textures: &[impl Borrow<LightTexture>], goniograms: &[Arc<Goniogram>]) -> Self {

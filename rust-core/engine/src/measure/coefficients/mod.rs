@@ -21,13 +21,19 @@ use super::{
 use crate::{
     compile::{CompiledScene, compile, light_paths_measure, transport},
     error::{Diagnostic, Error, Result},
+    light::LightTexture,
     scene::{Emission, Light, LightShape, Measurand, Meter, Origin, Scene, Settings, Transform},
     transport::{Openings, Sensor, Transport},
 };
 use gonio_simd::Execution;
-use std::sync::Arc;
+use std::{
+    f32::consts::{PI, TAU},
+    sync::Arc,
+};
 use work::Work;
 
+/// Pixels of the picture of how bright patches are: the finest have five and more.
+const BRIGHTNESS: [usize; 2] = [256, 128];
 /// Independent estimates.
 pub const ROUNDS: usize = 16;
 
@@ -42,6 +48,8 @@ pub struct SkyTask<'a> {
     pub place: &'a (dyn Fn(usize, [f64; 2]) -> Option<[f32; 3]> + Sync),
     /// Steradians of a patch.
     pub solid_angle: &'a (dyn Fn(usize) -> f64 + Sync),
+    /// How bright a patch is beside others, in the hours that coefficients are for: paths look there more often.
+    pub brightness: &'a (dyn Fn(usize) -> f64 + Sync),
     /// Centres of suns' discs.
     pub suns: &'a [[f64; 3]],
     /// Radians under which their discs are seen.
@@ -120,7 +128,7 @@ pub fn trace_rounds(
         let problem = format!("daylight coefficients are of illuminances, {} was asked for", other.measurand.name());
         return Err(Error::scene(&other.origin, problem));
     }
-    let laid = Laid::out(scene, points, task.openings, watch)?;
+    let laid = Laid::out(scene, points, task, watch)?;
     let mut diagnostics = laid.compiled.diagnostics.clone();
     if let (true, Some(first)) = (light_paths_measure::bends_light(&laid.compiled), points.first()) {
         diagnostics.push(Diagnostic::warning(&first.origin, BY_PATCHES));
@@ -144,8 +152,10 @@ pub fn sun_coefficients(
     execution: Execution,
     watch: &mut Watch<'_>,
 ) -> Result<(Vec<f32>, Vec<Diagnostic>)> {
-    let laid = Laid::out(scene, points, &[], watch)?;
-    let task = SkyTask { patches: 0, patch_of: &|_| 0, place: &|_, _| None, solid_angle: &|_| 0.0, suns, sun_angle, up, openings: &[] };
+    let nothing = |_: usize| 0.0;
+    let (solid_angle, brightness) = (&nothing, &nothing);
+    let task = SkyTask { patches: 0, patch_of: &|_| 0, place: &|_, _| None, solid_angle, brightness, suns, sun_angle, up, openings: &[] };
+    let laid = Laid::out(scene, points, &task, watch)?;
     let tracing = laid.tracing(&task, execution);
     let work = Work::new();
     let found = work.watched(straight::batches_of_suns(&tracing), 1, watch, || straight::suns(&tracing, &work))?;
@@ -165,12 +175,16 @@ struct Laid {
 }
 
 impl Laid {
-    fn out(scene: &Scene, points: &[Meter], groups: &[Vec<String>], watch: &Watch<'_>) -> Result<Self> {
+    fn out(scene: &Scene, points: &[Meter], task: &SkyTask<'_>, watch: &Watch<'_>) -> Result<Self> {
         let probes = points.iter().map(Probe::new).collect::<Result<Vec<_>>>()?;
         let scene = under_even_sky(scene);
-        let compiled = Arc::new(compile(&scene, watch.previous, watch.cancel)?);
+        let mut compiled = compile(&scene, watch.previous, watch.cancel)?;
+        if task.patches > 0 {
+            Arc::make_mut(&mut compiled.tables.lights).look_at_dome_by(0, &brightness(task));
+        }
+        let compiled = Arc::new(compiled);
         let (sensors, _) = placed(&compiled, &probes);
-        let openings = openings::openings(&scene, &compiled, groups);
+        let openings = openings::openings(&scene, &compiled, task.openings);
         Ok(Self { compiled, sensors, settings: unlimited(&scene.settings), openings })
     }
 
@@ -187,6 +201,18 @@ fn under_even_sky(scene: &Scene) -> Scene {
     let sky = Light { emission, ..Light::new(Origin::new("sky"), shape, Transform::default()) };
     let lights = std::iter::once(sky).chain(scene.lights.iter().filter(|light| light.portal).cloned()).collect();
     Scene { lights, ..scene.without_emission() }
+}
+
+/// A picture of how bright the patches are.
+fn brightness(task: &SkyTask<'_>) -> LightTexture {
+    let [width, height] = BRIGHTNESS;
+    let value = |pixel: usize| {
+        let (across, down) = ((pixel % width) as f32 + 0.5, (pixel / width) as f32 + 0.5);
+        let (sine, cosine) = (PI * down / height as f32).sin_cos();
+        let (sin_longitude, cos_longitude) = (TAU * (0.5 - across / width as f32)).sin_cos();
+        (task.brightness)((task.patch_of)([sine * sin_longitude, cosine, sine * cos_longitude])) as f32
+    };
+    LightTexture { width, height, rgb: (0..width * height).flat_map(|pixel| [value(pixel); 3]).collect() }
 }
 
 /// What is traced how.
