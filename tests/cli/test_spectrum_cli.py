@@ -157,3 +157,19 @@ def test_errors_are_one_line_with_place(run, lamp, tmp_path):
         assert len(failed.stderr.strip().split("\n")) == 1
     assert not list(tmp_path.glob("lamp.*"))
     assert run("spectrum").returncode == 2
+
+
+def test_what_is_no_spectrum_ends_at_once(run, tmp_path):
+    """Bombs, folders, devices and files of gigabytes."""
+    parts = [10 * f"&a{k - 1};" for k in range(10)]
+    laughs = "".join(f"<!ENTITY a{k} '{parts[k]}'>" for k in range(1, 10))
+    bomb, folder, giant, three = (tmp_path / name for name in ("bomb.spdx", "folder.csv", "giant.csv", "three.csv"))
+    bomb.write_text(f'<!DOCTYPE l [<!ENTITY a0 "lol">{laughs}]><IESTM2714>&a9;</IESTM2714>')
+    folder.mkdir()
+    with giant.open("wb") as file:
+        file.truncate(1 << 30)
+    three.write_text("380,1\n580,1\n780,1\n")
+    for path, expected in ((bomb, "bomb.spdx:1: not XML"), (folder, "a folder was found"), (giant, "more than"), (three, "three.csv:1: 3 points")):
+        failed = run("spectrum", path)
+        assert failed.returncode == 1 and expected in failed.stderr and "Traceback" not in failed.stderr
+        assert len(failed.stderr.strip().split("\n")) == 1

@@ -67,6 +67,55 @@ def test_what_is_no_spectrum_is_told(tmp_path, wrong):
     assert any("/Sky" in str(message) and ("LED-B77" in str(message) or "missing.csv" in str(message)) for message in told)
 
 
+NM = range(380, 781, 5)
+
+
+@pytest.mark.parametrize(
+    ("pairs", "message"),
+    [
+        ([(nm, 1) for nm in NM if not 500 < nm < 560], "nothing between 500 and 560 nm"),
+        ([(nm, 1) for nm in reversed(NM)], "775 nm after 780 nm"),
+        ([(nm / 1000, 1) for nm in NM], "look like micrometres"),
+        ([(nm, 1) for nm in NM[:3]], "3 points"),
+        ([], "0 points"),
+        ([(nm, "nan" if nm == 400 else 1) for nm in NM], "power NaN at 400 nm"),
+        ([(nm, "inf" if nm == 400 else 1) for nm in NM], "power inf at 400 nm"),
+        ([(nm, -1 if nm == 400 else 1) for nm in NM], "power -1 at 400 nm"),
+        ([(nm, 0) for nm in NM], "no power above zero"),
+        ([(nm + 500, 1) for nm in NM], "no visible light"),
+    ],
+)
+def test_pairs_that_are_no_spectrum_leave_the_light_its_colour(tmp_path, pairs, message):
+    scene = load(tmp_path, "float2[] gonio:spectrum = [" + ", ".join(f"({nm}, {power})" for nm, power in pairs) + "]")
+    scene.set(width=8, height=8, samples=4)
+    with gonio.Render(scene) as rendering:
+        rendering.wait()
+        told = [*scene.diagnostics, *rendering.diagnostics]
+        shown = np.asarray(rendering.film()["color"])[..., :3].mean(axis=(0, 1))
+    assert len(told) == 1 and "/Sky" in str(told[0]) and message in str(told[0])
+    assert shown == pytest.approx([50.0] * 3, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "message"),
+    [
+        ("lamp.csv", "0.38,1\n0.48,1\n0.58,1\n0.68,1\n0.78,1\n", "lamp.csv:1: "),
+        ("lamp.csv", "380,1\n480,1\n", "lamp.csv:1: 2 points"),
+        ("lamp.spdx", '<!DOCTYPE l [<!ENTITY a "b">]><IESTM2714>&a;</IESTM2714>', "lamp.spdx:1: not XML"),
+    ],
+)
+def test_assets_that_are_no_spectrum_are_told_with_their_line(tmp_path, name, text, message):
+    (tmp_path / name).write_text(text, encoding="utf-8")
+    (told,) = load(tmp_path, f"asset gonio:spectrum = @./{name}@").diagnostics
+    assert "/Sky" in str(told) and message in str(told) and "keeps its colour" in str(told)
+
+
+@pytest.mark.parametrize("wrong", ["float[] gonio:spectrum = [380, 1]", "int gonio:spectrum = 5", "color3f gonio:spectrum = (1, 1, 1)"])
+def test_other_types_are_told(tmp_path, wrong):
+    (told,) = load(tmp_path, wrong).diagnostics
+    assert "/Sky.gonio:spectrum" in str(told) and "expected an array of float vectors" in str(told)
+
+
 PANEL = """#usda 1.0
 (
     metersPerUnit = 1

@@ -77,8 +77,12 @@ def lamp_spectrum(spectrum: Any) -> dict[str, Any]:
         path = Path(spectrum)
         spectrum = read_spectrum(path.read_bytes(), path.name) if path.is_file() else illuminant(str(spectrum))
     if not isinstance(spectrum, Mapping):
-        wavelengths, power = spectrum
-        spectrum = {"wavelengths_nm": [float(nm) for nm in wavelengths], "power": [float(value) for value in power]}
+        try:
+            wavelengths, power = spectrum
+            spectrum = {"wavelengths_nm": [float(nm) for nm in wavelengths], "power": [float(value) for value in power]}
+        except (TypeError, ValueError) as error:
+            expected = "expected a name, a file, (wavelengths in nm, power), or what `gonio.read_spectrum` gives"
+            raise _setting_error("spectrum", expected) from error
     return {key: spectrum[key] for key in ("name", "wavelengths_nm", "power") if key in spectrum}
 
 

@@ -50,6 +50,28 @@ def test_what_is_no_spectrum_is_told_with_the_lamp(tmp_path: Path):
 
 
 @pytest.mark.blender
+def test_files_that_are_no_spectrum_are_told_with_their_line(tmp_path: Path):
+    import scenes
+    from recorder import depsgraph, exporter
+
+    scene = scenes.lit_floor()
+    settings = next(thing for thing in scene.objects if thing.type == "LIGHT").data.gonio
+    settings.use_photometry = True
+    for name, text, message in (
+        ("lamp.csv", "0.38,1\n0.48,1\n0.58,1\n0.68,1\n0.78,1\n", "lamp.csv:1: "),
+        ("few.csv", "380,1\n480,1\n", "few.csv:1: 2 points"),
+        ("bomb.spdx", "<!DOCTYPE l [<!ENTITY a 'b'>]><IESTM2714>&a;</IESTM2714>", "bomb.spdx:1: not XML"),
+        ("folder", None, "folder' was found, expected one of A, E"),
+    ):
+        (tmp_path / name).mkdir() if text is None else (tmp_path / name).write_text(text)
+        settings.spectrum = str(tmp_path / name)
+        made, report = exporter()
+        assert made.sync(depsgraph()).lights[0]["spectrum"] is None
+        (told,) = [each.text for each in report.diagnostics]
+        assert message in told and "keeps its colour" in told
+
+
+@pytest.mark.blender
 def test_a_material_shines_by_its_spectrum(tmp_path: Path):
     import bpy
     import scenes
