@@ -149,7 +149,7 @@ bench:
 # Needs Debian's libembree-dev and libllvm19 (15 aborts on processors with AVX-512; DRJIT_LIBLLVM_PATH names another copy), and a C compiler.
 # The page of the pictures is out/peers/index.html, how paths grow with scenes out/peers/scaling.svg; PEERS="--seconds 60" makes them longer.
 # Illuminances beside Radiance: out/peers/radiance.svg; RADIANCE=--write-docs puts the figures into docs/radiance.md. Pictures by wavelength:
-# out/peers/spectral-cost.md.
+# out/peers/spectral-cost.md, and what wavelengths cost beside red, green and blue: out/peers/spectral-price.md.
 bench-peers: export DRJIT_LIBLLVM_PATH ?= /usr/lib/x86_64-linux-gnu/libLLVM.so.19.1
 bench-peers: build $(CURDIR)/.venv-bpy50/ready
 	cd tests/peers/embree && cargo run --release && cargo run --release -- curves
@@ -158,6 +158,7 @@ bench-peers: build $(CURDIR)/.venv-bpy50/ready
 	$(BIN)/python tests/peers/render/scaling.py
 	$(BIN)/python tests/peers/radiance/bench.py $(RADIANCE)
 	$(BIN)/python tests/peers/spectral/bench.py
+	$(BIN)/python tests/peers/spectral/price_bench.py
 
 # Error at equal time on six scenes full of caustics, beside Cycles, LuxCore and Mitsuba, in out/peers/caustics; needs what bench-peers needs.
 # References that are missing are made first, in minutes each. CAUSTICS="pool --seconds 20" chooses; GONIO_CAUSTICS="name=value,..." has
