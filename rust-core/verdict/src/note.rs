@@ -27,6 +27,8 @@ pub(crate) enum Note {
     LeftOut { count: u64, share: f64 },
     /// Luminaires behind glass or covers are not rated at so many points.
     Covered(usize),
+    /// A share is that of points that reach this value.
+    Target { value: f64, unit: String },
     /// What the command said of its figures, in its words.
     Told(String),
     /// So many points were not measured.
@@ -65,6 +67,10 @@ impl Note {
             Self::RatioOfMeans => words.ratio_of_means.clone(),
             Self::LeftOut { count, share } => fill(&words.left_out, &[("count", &count.to_string()), ("percent", &of_share(*share))]),
             Self::Covered(count) => fill(&words.covered, &[("count", &count.to_string())]),
+            Self::Target { value, unit } => {
+                let value = numbers.form(&value.to_string());
+                fill(&words.share_target, &[("value", &format!("{value} {unit}"))])
+            }
             Self::Told(words) => words.clone(),
             Self::Missing(count) => fill(&words.missing_points, &[("count", &count.to_string())]),
             Self::MoreSamples { times, interval, error, unit } => {

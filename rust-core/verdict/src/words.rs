@@ -62,6 +62,7 @@ pub(crate) struct Words {
     pub(crate) left_out: String,
     pub(crate) covered: String,
     pub(crate) missing_points: String,
+    pub(crate) share_target: String,
     pub(crate) interval: String,
     pub(crate) more_samples: String,
     pub(crate) never_settled: String,

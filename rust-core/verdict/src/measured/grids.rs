@@ -2,7 +2,8 @@
 
 use super::{
     area::{Area, Figure, with_notes},
-    colour::{beside, is_of_colour},
+    colour::{beside, is_of_colour, of_points},
+    eyes,
     object::{Found, error, number, objects, text},
 };
 use crate::{estimate::Estimate, note::Note, plan::Plan, unit::Unit};
@@ -95,6 +96,8 @@ fn grid(of: &Map<String, Value>, file: usize) -> Found<Area> {
         let both = low().into_iter().chain(high()).chain(missing).collect();
         figures.push(add("diversity", &["ud", "diversity_ud"], ratio(least, greatest), &Unit::share(), both));
     }
+    figures.extend(eyes::figures(of, &quantity, &own)?);
+    figures.extend(of_points(&quantity, of)?);
     area.figures = figures;
     Ok(area)
 }

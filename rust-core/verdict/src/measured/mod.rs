@@ -4,6 +4,7 @@ mod annual;
 mod area;
 mod colour;
 mod emergency;
+mod eyes;
 mod grids;
 mod lit;
 mod modelling;

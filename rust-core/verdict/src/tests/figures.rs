@@ -186,3 +186,35 @@ fn what_is_left_out_is_told() {
     let sheet = told(&one("area = 'Keeper'; quantity = 'gr'; at_most = 50", &[sports]).expect("a sheet"));
     assert!(sheet.contains(note), "{sheet}");
 }
+
+/// Grids of one figure of colour have the others of their points; grids of eyes the least eye and the shares that reach a target.
+#[test]
+fn eyes_and_colours_of_grids() {
+    let mut file = grid();
+    let colour = |rf: f64| json!({ "cct": 4000.0, "rf": rf, "rg": null, "melanopic_edi_lx": 3.0 * rf, "standard_errors": { "rf": 3.0, "rg": null } });
+    let share = |share: f64, error: f64| json!({ "count": 6, "share": share, "standard_error": error, "share_within_error": 2.0 * error });
+    let of = &mut file["grids"][0];
+    (of["quantity"], of["unit"], of["colours"]) = (json!("cct"), json!("K"), json!([colour(80.0), colour(90.0)]));
+    of["eyes"] = json!({ "facings": [[0, 1, 0]], "least": { "value": 390.0, "standard_error": 5.0 } });
+    of["target"] = json!({ "value": 250.0, "points": share(0.75, 0.05), "points_all_ways": share(0.5, 0.0), "eyes": share(0.7, 0.02) });
+    let close = |keys: &str, expected: (f64, Option<f64>)| {
+        let found = value(&format!("area = 'Desk'; quantity = {keys}"), &[file.clone()]);
+        let error = found.1.zip(expected.1).map_or(found.1 == expected.1, |(found, expected)| (found - expected).abs() < 1e-9);
+        assert!((found.0 - expected.0).abs() < 1e-9 && error, "{keys}: {found:?}");
+    };
+    close("'rf'", (85.0, Some(4.5f64.sqrt())));
+    close("'minimum'; of = 'rf'", (80.0, Some(3.0)));
+    close("'mean'", (510.0, Some(4.0)));
+    close("'melanopic_edi'; unit = 'lx'; maintenance_factor = 0.8", (204.0, None));
+    close("'least_eye'; unit = 'K'", (390.0, Some(5.0)));
+    close("'share_of_points'; unit = '%'", (75.0, Some(5.0)));
+    close("'share_all_ways'", (0.5, Some(0.0)));
+    close("'share_of_eyes'; unit = '%'", (70.0, Some(2.0)));
+    let verdict = |least: u32| {
+        let keys = format!("area = 'Desk'; quantity = 'share_of_points'; unit = '%'; at_least = {least}");
+        let found = one(&keys, &[file.clone()]).expect("a sheet");
+        (found.rows[0].verdict, told(&found))
+    };
+    assert_eq!([60, 80, 90].map(|least| verdict(least).0), [Verdict::Met, Verdict::WithinError, Verdict::NotMet]);
+    assert!(verdict(60).1.contains("reach 250 K"), "{}", verdict(60).1);
+}
