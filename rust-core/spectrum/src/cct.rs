@@ -35,6 +35,17 @@ fn blackbody(log: f64) -> [f64; 2] {
     observer::uv(sums)
 }
 
+/// The same between the places of [`LOCUS`], by the cubic through the four about it, to 1e-9.
+fn between(log: f64) -> [f64; 2] {
+    let place = (log - LOCUS[0].0) / (LOCUS[1].0 - LOCUS[0].0);
+    let below = (place as usize).clamp(1, LOCUS.len() - 3);
+    let t = place - below as f64;
+    let weights =
+        [-t * (t - 1.0) * (t - 2.0) / 6.0, (t * t - 1.0) * (t - 2.0) / 2.0, -t * (t + 1.0) * (t - 2.0) / 2.0, t * (t * t - 1.0) / 6.0];
+    let of = |axis: usize| weights.iter().enumerate().map(|(k, weight)| weight * LOCUS[below - 1 + k].1[axis]).sum();
+    [of(0), of(1)]
+}
+
 /// Correlated colour temperature in K, to about a kelvin, and Duv of linear Rec.709, for pictures; `None` where it is not white.
 pub fn cct_of_colour(rec709: [f64; 3]) -> Option<(f64, f64)> {
     cct_nearby(observer::uv(turned(&REC709_TO_XYZ, rec709)))
@@ -76,7 +87,7 @@ pub(crate) fn cct(uv: [f64; 2]) -> Option<(f64, f64)> {
     let [mut low, mut high] = [LOCUS[nearest.saturating_sub(1)].0, LOCUS[(nearest + 1).min(LOCUS.len() - 1)].0];
     // Golden section: the distance has one minimum between neighbours of the nearest.
     let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
-    let at = |log: f64| (log, distance(uv, blackbody(log)));
+    let at = |log: f64| (log, distance(uv, between(log)));
     let mut inner = [at(high - golden * (high - low)), at(low + golden * (high - low))];
     for _ in 0..STEPS {
         if inner[0].1 < inner[1].1 {
@@ -89,9 +100,26 @@ pub(crate) fn cct(uv: [f64; 2]) -> Option<(f64, f64)> {
     }
     let log = 0.5 * (low + high);
     let kelvin = log.exp();
-    let on = blackbody(log);
+    let on = between(log);
     let duv = distance(uv, on).copysign(uv[1] - on[1]);
     // The search's own resolution, so that a blackbody of the limit is within.
     let slack = 1.0 + 1e-6;
     (LOWEST_CCT / slack..=HIGHEST_CCT * slack).contains(&kelvin).then_some((kelvin, duv))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn blackbodies_between_those_of_the_table_are_blackbodies() {
+        let count = 3000;
+        for k in 0..=count {
+            let log = LOWEST_CCT.ln() + (HIGHEST_CCT / LOWEST_CCT).ln() * f64::from(k) / f64::from(count);
+            let [at, own] = [between(log), blackbody(log)];
+            assert!(distance(at, own) < 1e-9, "{}: {at:?} {own:?}", log.exp());
+            let (kelvin, duv) = cct(own).expect("a blackbody");
+            assert!((kelvin / log.exp() - 1.0).abs() < 1e-6 && duv.abs() < 1e-8, "{}: {kelvin} {duv}", log.exp());
+        }
+    }
 }

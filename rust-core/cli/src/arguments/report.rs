@@ -1,6 +1,7 @@
 //! What `gonio report` takes.
 
 use super::daylight::DaylightArguments;
+use super::eyes::eye_height;
 use super::measure::GridArguments;
 use super::number::{count, finite};
 use super::stage::StageArguments;
@@ -14,6 +15,7 @@ pub(super) const REPORT_EXAMPLES: &str = "Examples:
   gonio report office.usda -o office.html
   gonio report office.usda -o office.html --project 'Town hall' --place Vienna
   gonio report office.usda -o office.html --grid /Office/Floor --height 0.75 --margin 0.5 --max-illuminance 1000
+  gonio report office.usda -o office.html --grid /Office/Floor --height 0.75 --eyes sitting
   gonio report office.usda -o schedule.html --no-pictures          luminaires and the stage's own grids alone
 
 What stands in it:
@@ -23,6 +25,8 @@ What stands in it:
                   over the grid itself where there is no closed room
   pictures        what each camera sees, denoised, and its luminance in false colour; the glare of fisheye cameras of 180° or more
   grids, meters   average, least and greatest value, U0 and Ud with standard errors, and pictures with the values at their points
+  colour          where lamps have spectra or a grid or meter measures a colour: CCT, Duv, Ra, R9, Rf, Rg, melanopic DER and EDI with
+                  standard errors, the spectral irradiance beside TM-30's colour vector graphic, plans of melanopic EDI
   files           the polar diagram, the figures and the UGR table of each IES or EULUMDAT file
   notes           what the stage asks for and was not done";
 
@@ -93,6 +97,15 @@ pub(crate) struct ReportOptions {
     pub(crate) quiet: bool,
     #[command(flatten)]
     pub(crate) grids: GridArguments,
+    /// Melanopic light at eyes over the surfaces that --grid names, beside the grids there: sitting (1.2 m above the surface), standing (1.6 m) or so many metres above it.
+    #[arg(long, value_name = "sitting|standing|METRES", allow_hyphen_values = true, requires = "grid", value_parser = eye_height)]
+    pub(crate) eyes: Option<f64>,
+    /// So many level directions around that these eyes look, the first one as the grid faces (+Y, -Z where Y is up); 4 where nothing is said.
+    #[arg(long, value_name = "COUNT", requires = "eyes", conflicts_with = "facing", value_parser = count::<u32>(1..=64))]
+    pub(crate) directions: Option<u32>,
+    /// Where these eyes look, in place of all around; may be given several times.
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, requires = "eyes")]
+    pub(crate) facing: Vec<String>,
     #[command(flatten)]
     pub(crate) daylight: DaylightArguments,
 }

@@ -4,7 +4,7 @@ use super::{html::Page, numbers::with_error};
 use crate::{arguments::ReportOptions, falsecolor};
 use gonio::{
     Result,
-    measure::{GridReading, MeterReading, value_picture},
+    measure::{GridReading, MeterReading, Reading, value_picture},
     output::FalseColour,
 };
 
@@ -27,15 +27,36 @@ pub(super) fn write_grids(options: &ReportOptions, grids: &[GridReading], power:
         }
     }
     power.iter().for_each(|line| page.paragraph(line));
-    for grid in grids {
-        let unit = grid.measurand.unit();
-        let max = options.max_illuminance.filter(|_| !grid.measurand.is_of_colour());
-        let style =
-            FalseColour { scale: grid.scale(max, options.steps, None)?, unit: unit.into(), contours: true, smoothing: 0, legend: true };
-        let picture = falsecolor::encoded(&options.output, &value_picture(grid, &style))?;
-        page.wide_picture("png", &picture, &format!("{}: {} {unit}", grid.origin, grid.measurand.name()));
+    let with_eyes: Vec<&GridReading> = grids.iter().filter(|grid| grid.eyes.is_some()).collect();
+    if !with_eyes.is_empty() {
+        page.part("Eyes");
+        page.table(&["grid", "quantity", "looking", "average", "least eye"], &with_eyes.iter().flat_map(eye_rows).collect::<Vec<_>>(), &[]);
+        page.note("A point of a grid of eyes has the mean over their directions; the least eye is the least of all points and directions.");
     }
+    grids.iter().try_for_each(|grid| plan(options, grid, page))
+}
+
+/// The grid in false colour.
+pub(super) fn plan(options: &ReportOptions, grid: &GridReading, page: &mut Page) -> Result<()> {
+    let unit = grid.measurand.unit();
+    let max = options.max_illuminance.filter(|_| !grid.measurand.is_of_colour());
+    let style = FalseColour { scale: grid.scale(max, options.steps, None)?, unit: unit.into(), contours: true, smoothing: 0, legend: true };
+    let picture = falsecolor::encoded(&options.output, &value_picture(grid, &style))?;
+    page.wide_picture("png", &picture, &format!("{}: {} {unit}", grid.origin, grid.measurand.name()));
     Ok(())
+}
+
+/// A line for each direction of a grid's eyes, and one for all.
+fn eye_rows(grid: &&GridReading) -> Vec<Vec<String>> {
+    let Some(eyes) = &grid.eyes else { return Vec::new() };
+    let unit = grid.measurand.unit();
+    let row = |looking: String, average: &Reading, least: String| {
+        vec![grid.origin.to_string(), grid.measurand.name().to_owned(), looking, with_error(average, unit), least]
+    };
+    let all = row(format!("{} directions", eyes.facings.len()), &grid.summary.average, with_error(&eyes.least(), unit));
+    let towards = eyes.facings.iter().zip(eyes.by_facing());
+    let one = |([x, y, z], reading): (&[f64; 3], Reading)| row(format!("{x:.2}, {y:.2}, {z:.2}"), &reading, "–".to_owned());
+    std::iter::once(all).chain(towards.map(one)).collect()
 }
 
 fn row(grid: &GridReading) -> Vec<String> {

@@ -16,7 +16,8 @@ pub(crate) struct Page {
 impl Page {
     pub(crate) fn new(Head { title, facts }: &Head) -> Self {
         let title = escaped(title);
-        let head = format!("<meta charset=\"utf-8\">\n<title>{title}</title>\n<style>\n{STYLE}</style>");
+        let device = "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">";
+        let head = format!("<meta charset=\"utf-8\">\n{device}\n<title>{title}</title>\n<style>\n{STYLE}</style>");
         let facts: String = facts.iter().map(|(name, fact)| format!("<dt>{}</dt><dd>{}</dd>\n", escaped(name), escaped(fact))).collect();
         let top = format!("<header>\n<h1>{title}</h1>\n<dl>\n{facts}</dl>\n</header>");
         Self { text: format!("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n{head}\n</head>\n<body>\n{top}\n") }

@@ -1,5 +1,7 @@
 //! `gonio report`.
 
+mod colour;
+mod eyes;
 mod grids;
 mod head;
 mod html;
@@ -24,6 +26,7 @@ use super::{
     render::stage_options,
     stage::{Stage, light_model},
 };
+use colour::Colours;
 use gonio::{
     Diagnostic, Error, Result, Severity,
     compile::{CompiledScene, compile},
@@ -47,7 +50,8 @@ pub(super) fn report(py: Python<'_>, options: &ReportOptions, interrupted: &'sta
     stage_options.time = options.frame.map_or(SampleTime::Start, SampleTime::Code);
     let stage = Stage::open(py, &options.stage.stage, &options.stage.state, &stage_options)?;
     author_grids(py, &stage, &options.grids, None)?;
-    let loaded = stage.load(py, &stage_options, interrupted)?;
+    let mut loaded = stage.load(py, &stage_options, interrupted)?;
+    eyes::add(&mut loaded.scene, options)?;
     let today = today(py).map_err(|error| Error::Internal(error.to_string()))?;
     let denoiser = denoiser(options);
     py.detach(|| run(options, loaded, today, denoiser.as_ref(), interrupted))
@@ -77,6 +81,8 @@ fn run(
     let mut diagnostics = loaded.diagnostics.clone();
     let (pictures, compiled) = pictures::pictures(options, &mut loaded, &cameras, denoiser, interrupted, &mut diagnostics)?;
     let measured = measured(options, &mut loaded, compiled.as_deref(), interrupted, &mut diagnostics)?;
+    let lit = (&loaded.scene, &measured);
+    let colours = Colours::new(lit, compiled.as_deref(), Reporter::new(options.quiet), interrupted)?;
     let power = power(options, &loaded, compiled, &measured, interrupted)?;
     tell(&options.stage, options.quiet, &diagnostics);
     let schedule = Schedule::new(&loaded);
@@ -85,6 +91,7 @@ fn run(
     pictures::write(&pictures, &mut page);
     grids::write_grids(options, &measured.grids, &power, &mut page)?;
     grids::write_meters(&measured.meters, &mut page);
+    colours.write(options, &mut page)?;
     schedule.write_files(&mut page);
     write_notes(&diagnostics, &mut page);
     let text = page.finish();

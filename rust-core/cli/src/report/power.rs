@@ -11,7 +11,7 @@ use gonio_formats::short_number;
 /// Installed power of the room about the largest grid of illuminance, over the room's area. Where there is no closed room, or where it is asked for, that of
 /// all luminaires over the grid's area, which says so. None without such a grid or without power.
 pub(super) fn density(grids: &[GridReading], schedule: &Schedule<'_>, scene: &CompiledScene, up: [f64; 3], by_grid: bool) -> Vec<String> {
-    let measures_illuminance = |grid: &&GridReading| grid.measurand == Measurand::Illuminance;
+    let measures_illuminance = |grid: &&GridReading| grid.measurand == Measurand::Illuminance && grid.eyes.is_none();
     let Some(grid) = grids.iter().filter(measures_illuminance).max_by(|a, b| a.area.total_cmp(&b.area)) else { return Vec::new() };
     let room = middle(grid).and_then(|place| Room::about(scene, place, up));
     let mut lines = Vec::new();

@@ -38,7 +38,8 @@ pub(super) fn graphic(page: &mut String, rendition: &Rendition) {
         text(page, [x, y + 4.0], "middle", 10, &(k + 1).to_string());
     }
     text(page, [MIDDLE[0], 384.0], "middle", 12, &format!("TM-30 colour vectors: Rf {:.0}, Rg {:.0}", rendition.rf, rendition.rg));
-    text(page, [MIDDLE[0], 402.0], "middle", 11, "black: reference, red: lamp; outside the circle colours are more saturated");
+    text(page, [MIDDLE[0], 401.0], "middle", 11, "black: reference, red: this light;");
+    text(page, [MIDDLE[0], 416.0], "middle", 11, "outside the circle colours are more saturated");
 }
 
 /// A place of the page at a hue in bins and a distance in radii.
