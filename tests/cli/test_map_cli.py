@@ -115,3 +115,34 @@ def test_what_cannot_be_written(run, stage, tmp_path):
         (["--quantity", "heat"], "heat"),
     ]:
         assert message in run("map", stage, "--paths", 4096, *arguments).stderr
+
+
+def test_figures_of_colour(run, stage, tmp_path):
+    lit = STAGE.replace('inputs:radius = 1\n', 'inputs:radius = 1\n    string gonio:spectrum = "LED-B3"\n')
+    stage.write_text(lit)
+    lamp = gonio.illuminant("LED-B3")
+    expected = gonio.spectrum_figures(lamp["wavelengths_nm"], lamp["power"])
+    texture = tmp_path / "floor.exr"
+    options = ("--prim", "/Room/Floor", "--uv", "st", "--resolution", 4, 4, "--error", "0%", "--paths", 1 << 18, "--max-bounces", 0)
+    told = json.loads(run("map", stage, *options, "--figures", "-o", texture, "--json").stdout)
+    (front,) = (side for side in told["surfaces"] if side["side"] == "front")
+    assert front["colour"]["cct"] == pytest.approx(expected["cct"], abs=0.6)
+    openexr = pytest.importorskip("OpenEXR")
+
+    channels = openexr.File(str(texture), separate_channels=True).channels()
+    names = {"CCT": ("cct", 0.6), "Duv": ("duv", 3e-5), "Ra": ("ra", 0.05), "Rf": ("rf", 0.05), "Rg": ("rg", 0.05)}
+    for name, (figure, off) in names.items():
+        assert np.allclose(channels[name].pixels, expected[figure], atol=off), name
+        assert channels[f"{name}.StandardError"].pixels.max() < off
+    edi, lux = channels["MelanopicEDI"].pixels, channels["Illuminance"].pixels
+    assert np.allclose(edi / lux, expected["melanopic_der"], atol=0.002)
+    text = run("map", stage, *options).stdout
+    assert "CCT" not in text
+    picture = tmp_path / "ra.png"
+    done = run("map", stage, *options, "--quantity", "ra", "-o", picture, "-w", 32)
+    assert picture.read_bytes().startswith(b"\x89PNG") and "Ra 84." in done.stdout
+    stage.write_text(STAGE)
+    done = run("map", stage, *options, "--figures", check=False)
+    assert done.returncode == 1 and "/Lamp" in done.stderr and "spectrum" in done.stderr
+    done = run("map", stage, *options, "--quantity", "colour", check=False)
+    assert done.returncode == 1 and "melanopic-edi" in done.stderr

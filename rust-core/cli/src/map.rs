@@ -1,10 +1,11 @@
 //! `gonio map`.
 
 use super::{
-    arguments::MapArguments,
+    arguments::{MapArguments, ScaleArguments},
     daylight, falsecolor,
     file::{check_ending, check_targets, ending, print_path, put, write_or_keep},
     interrupt::goes_on,
+    measure::colour_json,
     messages::diagnostics_json,
     messages::print,
     messages::say,
@@ -23,7 +24,7 @@ use gonio::{
         write_map_exr,
     },
     measure::MOST_BOUNCES,
-    output::FalseColour,
+    output::{FalseColour, FalseColourScale},
     scene::Scene,
     transport::LIGHT_BATCH,
 };
@@ -47,8 +48,8 @@ const VIEW_SIDE: u32 = 3;
 /// Traces maps and writes what was asked for.
 pub(super) fn map(py: Python<'_>, options: &MapArguments, interrupted: &'static AtomicBool) -> Result<i32> {
     options.output.iter().try_for_each(|path| check_ending("output", path, &["exr", "usda", "png"]))?;
-    let quantity = quantity(&options.quantity)?;
-    let wanted = wanted(options)?;
+    let quantity = Quantity::by_name(&options.quantity)?;
+    let wanted = wanted(options, quantity)?;
     if options.uv.is_none() && options.output.iter().any(|path| ending(path) == "exr") {
         return Err(Error::setting("output", "a texture wants texture coordinates: --uv st"));
     }
@@ -98,8 +99,9 @@ fn run(
     for path in options.output.iter().filter(|path| ending(path) == "png") {
         let (values, size) =
             view(&maps, &compiled, &scene.settings, quantity, Looks { side: VIEW_SIDE, smooth: true }, Execution::detect())?;
-        let scale = falsecolor::scale(&options.scale, &values)?;
-        let style = FalseColour { scale, unit: "lx".into(), contours: false, smoothing: 0, legend: true };
+        let ScaleArguments { max, steps, log } = options.scale;
+        let scale = FalseColourScale::of_values(&values, max, steps, log, quantity.is_of_colour())?;
+        let style = FalseColour { scale, unit: quantity.unit().into(), contours: false, smoothing: 0, legend: true };
         falsecolor::write(path, &style.draw(&values, size))?;
     }
     if options.json {
@@ -125,7 +127,8 @@ fn traced(
     let mut progress = |done: u64| {
         let paths = (done * LIGHT_BATCH as u64) as f64;
         let speed = paths * 1e-6 / start.elapsed().as_secs_f64().max(1e-3);
-        let fraction = done as f64 / batches;
+        // Figures of colour come on top, so many as only the map tells.
+        let fraction = (done as f64 / batches).min(1.0);
         let left = (done > 0).then(|| start.elapsed().mul_f64((1.0 - fraction).max(0.0) / fraction));
         reporter.tell(fraction, &format!("{:.1} million paths at most", paths * 1e-6), left, &format!("{speed:.2} million a second"));
         goes_on(interrupted)
@@ -137,7 +140,7 @@ fn traced(
 }
 
 /// What the options ask for.
-fn wanted(options: &MapArguments) -> Result<MapOptions> {
+fn wanted(options: &MapArguments, quantity: Quantity) -> Result<MapOptions> {
     let texel = match (options.texel, options.resolution.as_deref()) {
         (Some(metres), _) => TexelSize::Metres(metres),
         (None, Some([width, height])) => TexelSize::Resolution([*width, *height]),
@@ -151,19 +154,10 @@ fn wanted(options: &MapArguments) -> Result<MapOptions> {
         paths: options.paths,
         time_limit_s: options.time_limit,
         colours: options.colours,
+        figures: options.figures || matches!(quantity, Quantity::Figure(_)),
         memory: options.memory,
         max_bounces: options.max_bounces.unwrap_or(MOST_BOUNCES),
     })
-}
-
-fn quantity(name: &str) -> Result<Quantity> {
-    match name {
-        "illuminance" => Ok(Quantity::Illuminance),
-        "direct" => Ok(Quantity::Direct),
-        "indirect" => Ok(Quantity::Indirect),
-        "error" => Ok(Quantity::StandardError),
-        _ => Err(Error::setting("quantity", format!("'{name}' was found, expected illuminance, direct, indirect or error"))),
-    }
 }
 
 /// Writes textures and layers; gives their paths.
@@ -256,6 +250,10 @@ fn as_text(maps: &IlluminationMaps, seconds: f64) -> Vec<String> {
             summary.standard_error
         )
     };
+    let line = |lit: (&SurfaceMap, usize)| {
+        let colour = lit.0.summaries[lit.1].colour.as_ref().map_or(String::new(), |colour| format!("; in all {}", colour.note()));
+        line(lit) + &colour
+    };
     lines.extend(lit(maps).take(MOST_LINES).map(line));
     let rest = lit(maps).count().saturating_sub(MOST_LINES);
     if rest > 0 {
@@ -279,6 +277,7 @@ fn as_json(maps: &IlluminationMaps, seconds: f64, of_stage: &[Diagnostic]) -> Va
             "least_lx": summary.extremes[0],
             "greatest_lx": summary.extremes[1],
             "parts": map.chart.len(),
+            "colour": summary.colour.as_ref().map(|colour| colour_json(colour)),
         })
     };
     json!({

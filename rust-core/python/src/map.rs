@@ -3,6 +3,7 @@
 use crate::{
     array::Array,
     error::{exception, setting, told},
+    measure::colour_described,
     render::Render,
     scene::Scene,
     watched::{unless, watched},
@@ -11,11 +12,11 @@ use gonio::{
     Error,
     compile::{CompiledScene, compile},
     light_paths::Watch,
-    map::{self, Chart, Looks, MapOptions, Quantity, SideMap, TexelSize, corners},
+    map::{self, Chart, Looks, MapOptions, PartColour, Quantity, SideMap, TexelSize, corners},
     measure::MOST_BOUNCES,
 };
 use gonio_simd::Execution;
-use pyo3::prelude::*;
+use pyo3::{prelude::*, types::PyDict};
 use std::{
     path::PathBuf,
     sync::{Arc, atomic::AtomicBool},
@@ -81,7 +82,7 @@ impl IlluminationMaps {
         told(&self.maps.diagnostics)
     }
     /// Lux as the camera of a scene sees the surfaces, (height, width), rows from the top; nan where there is no map. The scene is the one that was
-    /// mapped, with any camera and size. `quantity` is illuminance, direct, indirect or error; a pixel looks `side` × `side` times. With `smooth` differences
+    /// mapped, with any camera and size. `quantity` is illuminance, direct, indirect, error or a figure of colour (`SurfaceMap.figure`); a pixel looks `side` × `side` times. With `smooth` differences
     /// that the values' standard errors explain go away, as in the command's pictures.
     #[pyo3(signature = (scene, *, quantity = "illuminance", side = 2, smooth = false))]
     fn view(&self, py: Python<'_>, scene: &Scene, quantity: &str, side: u32, smooth: bool) -> PyResult<Array> {
@@ -103,13 +104,7 @@ impl IlluminationMaps {
 }
 
 fn quantity_of(name: &str) -> PyResult<Quantity> {
-    match name {
-        "illuminance" => Ok(Quantity::Illuminance),
-        "direct" => Ok(Quantity::Direct),
-        "indirect" => Ok(Quantity::Indirect),
-        "error" => Ok(Quantity::StandardError),
-        _ => Err(setting("quantity", format!("'{name}' was found, expected illuminance, direct, indirect or error"))),
-    }
+    Quantity::by_name(name).map_err(exception)
 }
 
 fn side_of(name: &str) -> PyResult<usize> {
@@ -121,6 +116,18 @@ fn side_of(name: &str) -> PyResult<usize> {
 }
 
 impl SurfaceMap {
+    /// Values (0) or errors (1) of a figure.
+    fn figures(&self, figure: &str, side: &str, which: usize) -> PyResult<Array> {
+        let Quantity::Figure(measurand) = quantity_of(figure)? else {
+            return Err(setting("figure", format!("'{figure}' was found, expected cct, duv, ra, rf, rg or melanopic-edi")));
+        };
+        let parts = self.map().chart.len();
+        let of = |part: Option<&PartColour>| part.map_or(f64::NAN, |part| f64::from(part.of(measurand)[which]));
+        let lit = self.map().sides[side_of(side)?].as_ref();
+        let values = (0..parts).map(|part| of(lit.and_then(|lit| lit.figures.get(part)))).collect();
+        Ok(self.laid_out(values))
+    }
+
     fn map(&self) -> &map::SurfaceMap {
         &self.maps.surfaces[self.number]
     }
@@ -129,10 +136,15 @@ impl SurfaceMap {
     fn values(&self, side: &str, pick: impl Fn(&SideMap) -> Vec<f64>) -> PyResult<Array> {
         let map = self.map();
         let values = map.sides[side_of(side)?].as_ref().map_or_else(|| vec![0.0; map.chart.len()], pick);
-        Ok(match &map.chart {
+        Ok(self.laid_out(values))
+    }
+
+    /// In the texels' rows, or part by part.
+    fn laid_out(&self, values: Vec<f64>) -> Array {
+        match &self.map().chart {
             Chart::Texels(chart) => Array::rows(values, chart.size()[0] as usize),
             Chart::Cells(_) => Array::flat(values),
-        })
+        }
     }
 }
 
@@ -211,6 +223,23 @@ impl SurfaceMap {
         let map = self.map().sides[side_of(side)?].as_ref().filter(|map| !map.colour.is_empty());
         Ok(map.map(|map| Array::rows(map.colour.iter().flatten().map(|value| f64::from(*value)).collect(), 3)))
     }
+    /// A figure of the light's colour, part by part, laid out as `illuminance`: cct, duv, ra, rf, rg or melanopic-edi; nan where there is no light, it is not
+    /// white, or figures were not asked for.
+    #[pyo3(signature = (figure, side = "front"))]
+    fn figure(&self, figure: &str, side: &str) -> PyResult<Array> {
+        self.figures(figure, side, 0)
+    }
+    /// Standard errors of `figure`.
+    #[pyo3(signature = (figure, side = "front"))]
+    fn figure_errors(&self, figure: &str, side: &str) -> PyResult<Array> {
+        self.figures(figure, side, 1)
+    }
+    /// What the light of a whole side says together, as `Reading.colour`; None where nothing arrived or figures were not asked for.
+    #[pyo3(signature = (side = "front"))]
+    fn colour<'py>(&self, py: Python<'py>, side: &str) -> PyResult<Option<Bound<'py, PyDict>>> {
+        let colour = self.map().summaries[side_of(side)?].colour.as_ref();
+        colour.map(|colour| colour_described(py, colour)).transpose()
+    }
     /// The parts of divided triangles: nine numbers a row, the corners in the world, metres; None of texels.
     #[getter]
     fn corners(&self) -> Option<Array> {
@@ -258,11 +287,11 @@ impl SurfaceMap {
 /// With `uv`, the name of texture coordinates, on their texels, of `texel` metres or `resolution` (width, height) in number; without, on triangles
 /// divided until their parts are no larger than `texel` metres squared. It ends where the standard error, averaged over the lit area, is `error` of
 /// the illuminance, after `paths` light paths or `time_limit` seconds; divided triangles are joined where their own error would be larger.
-/// `colours` keeps red, green and blue too, `memory` is the most bytes. `previous` lends the trees and images of what did not change, and
+/// `colours` keeps red, green and blue too, `figures` those of the light's colour, for which lamps want spectra, `memory` is the most bytes. `previous` lends the trees and images of what did not change, and
 /// `cancelled`, a function that says whether to stop, is asked every 50 ms.
 #[pyfunction]
 #[pyo3(signature = (
-    scene, *, prims = None, uv = None, texel = None, resolution = None, error = 0.05, paths = 16777216, time_limit = 0.0, colours = false,
+    scene, *, prims = None, uv = None, texel = None, resolution = None, error = 0.05, paths = 16777216, time_limit = 0.0, colours = false, figures = false,
     memory = 1073741824, max_bounces = None, previous = None, cancelled = None
 ))]
 #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
@@ -277,6 +306,7 @@ pub(crate) fn illumination_map(
     paths: u64,
     time_limit: f64,
     colours: bool,
+    figures: bool,
     memory: u64,
     max_bounces: Option<u32>,
     previous: Option<&Render>,
@@ -289,8 +319,8 @@ pub(crate) fn illumination_map(
         (None, None) => TexelSize::Automatic,
     };
     let max_bounces = max_bounces.unwrap_or(MOST_BOUNCES);
-    let options =
-        MapOptions { prims: prims.unwrap_or_default(), uv, texel, error, paths, time_limit_s: time_limit, colours, memory, max_bounces };
+    let (prims, time_limit_s) = (prims.unwrap_or_default(), time_limit);
+    let options = MapOptions { prims, uv, texel, error, paths, time_limit_s, colours, figures, memory, max_bounces };
     let description = Arc::new(scene.scene.clone());
     let before = previous.and_then(Render::compiled);
     let ask = |py: Python<'_>, _: Option<&u64>| unless(py, cancelled.as_ref());

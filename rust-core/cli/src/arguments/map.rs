@@ -9,7 +9,8 @@ use std::path::PathBuf;
 pub(super) const MAP_EXAMPLES: &str = "Examples:
   gonio map office.usda --prim /Office/Floor --texel 0.05 -o floor.usda
   gonio map office.usda --prim /Office/Floor --uv st --texel 0.02 --error 2% -o floor.exr
-  gonio map office.usda --view /Office/Camera -o lux.png --max 1000";
+  gonio map office.usda --view /Office/Camera -o lux.png --max 1000
+  gonio map office.usda --prim /Office/Floor --view /Office/Camera --quantity cct -o cct.png";
 
 #[derive(Args, Debug)]
 pub(crate) struct MapArguments {
@@ -43,6 +44,9 @@ pub(crate) struct MapArguments {
     /// Keep red, green and blue too.
     #[arg(long)]
     pub(crate) colours: bool,
+    /// Figures of the light's colour too, of every part with standard errors: CCT, Duv, Ra, Rf, Rg and melanopic EDI; lamps want spectra. They take several times as long.
+    #[arg(long)]
+    pub(crate) figures: bool,
     /// Most memory for maps, as 512M or 4G; digits alone are mebibytes.
     #[arg(long, value_name = "SIZE", default_value = "1G", value_parser = mebibytes)]
     pub(crate) memory: u64,
@@ -62,7 +66,7 @@ pub(crate) struct MapArguments {
     /// Width of the .png.
     #[arg(long = "image-width", short = 'w', value_name = "PIXELS")]
     pub(crate) image_width: Option<u32>,
-    /// What the .png shows: illuminance, direct, indirect, or error (the standard error), all in lx.
+    /// What the .png shows: illuminance, direct, indirect, or error (the standard error), all in lx; or a figure of the light's colour, which then is traced too: cct (K), duv, ra, rf, rg, melanopic-edi (lx).
     #[arg(long, value_name = "QUANTITY", default_value = "illuminance")]
     pub(crate) quantity: String,
     /// For machines.

@@ -3,7 +3,7 @@
 use super::{
     dilate::dilate,
     gather::{Chart, SurfaceMap},
-    side::SideMap,
+    side::{PartColour, SideMap},
 };
 use crate::{
     error::{Error, Result},
@@ -14,9 +14,12 @@ use std::path::Path;
 
 /// Texels by which values go beyond the borders of charts.
 const DILATION: u32 = 8;
+/// Channels of the figures of colour.
+const NAMES: [&str; 6] = ["CCT", "Duv", "Ra", "Rf", "Rg", "MelanopicEDI"];
 
 /// Writes a map on texels as 32-bit floats, lux: R, G and B (all the illuminance where no colours were kept), `Illuminance`, `Direct` and
-/// `StandardError` of the front; those of the back begin with `Back.`. Values go 8 texels beyond the surface, all others are 0.
+/// `StandardError` of the front, and where figures of colour were asked for `CCT`, `Duv`, `Ra`, `Rf`, `Rg` and `MelanopicEDI` with a `.StandardError` each; those
+/// of the back begin with `Back.`. Values go 8 texels beyond the surface, all others are 0.
 ///
 /// # Errors
 /// Maps on divided triangles, and what the system refuses.
@@ -28,6 +31,7 @@ pub fn write_map_exr(path: &Path, map: &SurfaceMap) -> Result<()> {
     let none = SideMap::default();
     let sides = [("", map.sides[0].as_ref().unwrap_or(&none)), ("Back.", map.sides[1].as_ref().unwrap_or(&none))];
     let mut list = Vec::new();
+    let maps_figures = sides.iter().any(|(_, side)| !side.figures.is_empty());
     // The front is always there, as textures are read by their names.
     for (prefix, side) in sides.into_iter().filter(|(prefix, side)| prefix.is_empty() || !side.illuminance.is_empty()) {
         let mut add = |name: &str, values: Vec<f32>| {
@@ -43,6 +47,11 @@ pub fn write_map_exr(path: &Path, map: &SurfaceMap) -> Result<()> {
         add("Illuminance", side.illuminance.clone());
         add("Direct", side.direct.clone());
         add("StandardError", side.standard_error.clone());
+        for (name, figure) in NAMES.iter().zip(PartColour::FIGURES).filter(|_| maps_figures) {
+            let of = |which: usize| side.figures.iter().map(|colour| colour.of(figure)[which]).collect();
+            add(name, of(0));
+            add(&format!("{name}.StandardError"), of(1));
+        }
     }
     let mut attributes =
         LayerAttributes { software_name: Some(Text::from(concat!("gonio ", env!("CARGO_PKG_VERSION")))), ..LayerAttributes::default() };

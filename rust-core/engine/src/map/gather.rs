@@ -2,6 +2,7 @@
 
 use super::{
     cells::{CellChart, cells_for},
+    figures::{self, ByWavelength},
     join::join,
     options::{MOST_SIDE, MapOptions, TexelSize},
     side::{SideMap, Summary},
@@ -111,9 +112,10 @@ pub fn illumination_maps(
     options.check()?;
     let start = Instant::now();
     let surfaces = chosen(scene, compiled, options)?;
-    let (charts, memory) = charts(scene, &surfaces, options)?;
-    let (centre, radius) = compiled.bounds.sphere(compiled.tables.origin);
-    let sampler = EmissionSampler::new(&compiled.tables.lights, None, (centre, radius as f32), &[]);
+    let mut of_colour = Vec::new();
+    let sources = figures::sources(scene, options, &mut of_colour)?;
+    let (charts, memory) = charts(scene, &surfaces, options, sources.len())?;
+    let sampler = emission(compiled);
     let power = crate::colour::luminance(sampler.total_power());
     if sampler.is_empty() || !(power > 0.0 && power.is_finite()) {
         return Err(Error::setting("light", "nothing in the scene sends light"));
@@ -122,7 +124,7 @@ pub fn illumination_maps(
     let table = FluxTable::new(2 * places.cells(), options.colours, power);
     let gathering =
         Gathering { places: &places, charts: &charts, table: &table, batches: FixedSums::new(2, sampler.total_power(), options.paths) };
-    let tracing = Tracing { scene, compiled, options, execution, start };
+    let tracing = Tracing { settings: &scene.settings, compiled, options, execution, start };
     let areas: Vec<Vec<f64>> = charts.iter().zip(&surfaces).map(|(chart, surface)| chart.areas(&surface.areas)).collect();
     let paths = tracing.run(&sampler, &gathering, watch, &|| mean_error(&places, &table, &areas))?;
     if paths == 0 {
@@ -131,20 +133,30 @@ pub fn illumination_maps(
     let lumens = |at: usize| crate::colour::luminance(gathering.batches.get(at)) / paths as f64;
     let (emitted, cut_off) = (lumens(0), lumens(1));
     let error = mean_error(&places, &table, &areas);
+    let by_wavelength = ByWavelength { places: &places, charts: &charts, options, execution, paths };
+    let banded = if sources.is_empty() { None } else { Some(by_wavelength.traced(sources, watch)?) };
     let mut diagnostics = diagnostics(&surfaces, &charts);
+    diagnostics.extend(of_colour);
     diagnostics.extend(unfollowed(scene, &compiled.tables));
-    let finished = surfaces.into_iter().zip(charts).zip(areas).enumerate();
-    let of = |(number, ((surface, chart), areas)): (usize, ((MappedSurface, Chart), Vec<f64>))| {
-        finish(surface, chart, &areas, paths as f64, options, &|side, cell| table.row(places.row(number, cell, side)))
+    let finished = surfaces.into_iter().zip(charts).zip(&areas).enumerate();
+    let of = |(number, ((surface, chart), areas)): (usize, ((MappedSurface, Chart), &Vec<f64>))| {
+        finish(surface, chart, areas, paths as f64, options, &|side, cell| table.row(places.row(number, cell, side)))
     };
-    let surfaces: Vec<SurfaceMap> = finished.map(of).collect();
+    let mut surfaces: Vec<SurfaceMap> = finished.map(of).collect();
+    banded.iter().for_each(|banded| banded.add_to(&mut surfaces, &areas, &places));
     diagnostics.extend(surfaces.iter().filter_map(|surface| too_coarse(surface, options)));
     let of_instance = std::mem::take(&mut places.of_instance);
     Ok(IlluminationMaps { surfaces, of_instance, paths, error, emitted, cut_off, memory, diagnostics })
 }
 
+/// How light paths start.
+pub(super) fn emission(compiled: &CompiledScene) -> EmissionSampler {
+    let (centre, radius) = compiled.bounds.sphere(compiled.tables.origin);
+    EmissionSampler::new(&compiled.tables.lights, None, (centre, radius as f32), &[])
+}
+
 /// Where surfaces stand in the table.
-struct Places {
+pub(super) struct Places {
     /// First cell of each surface, and the number of all.
     first: Vec<usize>,
     of_instance: Vec<u32>,
@@ -158,17 +170,17 @@ impl Places {
         surfaces.iter().enumerate().for_each(|(number, surface)| of_instance[surface.instance as usize] = number as u32);
         Self { first, of_instance }
     }
-    fn cells(&self) -> usize {
+    pub(super) fn cells(&self) -> usize {
         self.first.last().copied().unwrap_or(0)
     }
     /// The row of a surface's cell; side 1 is the back.
-    fn row(&self, surface: usize, cell: usize, side: usize) -> usize {
+    pub(super) fn row(&self, surface: usize, cell: usize, side: usize) -> usize {
         2 * (self.first[surface] + cell) + side
     }
 }
 
-/// Divides surfaces, and says how much memory the maps take.
-fn charts(scene: &Scene, surfaces: &[MappedSurface], options: &MapOptions) -> Result<(Vec<Chart>, u64)> {
+/// Divides surfaces, and says how much memory the maps take, by the light of so many sources where its colour is asked for.
+fn charts(scene: &Scene, surfaces: &[MappedSurface], options: &MapOptions, sources: usize) -> Result<(Vec<Chart>, u64)> {
     let total: f64 = surfaces.iter().map(MappedSurface::area).sum();
     let metres = match options.texel {
         TexelSize::Metres(metres) => metres,
@@ -179,7 +191,7 @@ fn charts(scene: &Scene, surfaces: &[MappedSurface], options: &MapOptions) -> Re
         let mut wanted = metres * metres;
         let needed = |wanted: f64| {
             let cells: u64 = surfaces.iter().map(|surface| cells_for(&surface.areas, wanted)).sum();
-            (cells, memory_of(cells, triangles, options))
+            (cells, memory_of(cells, triangles, options, sources))
         };
         // What was not asked for may be coarser.
         while options.texel == TexelSize::Automatic && needed(wanted).1 > options.memory && wanted < total {
@@ -201,7 +213,7 @@ fn charts(scene: &Scene, surfaces: &[MappedSurface], options: &MapOptions) -> Re
         texels += u64::from(size[0]) * u64::from(size[1]);
         placed.push((size, corners));
     }
-    let memory = memory_of(texels, triangles, options);
+    let memory = memory_of(texels, triangles, options, sources);
     check_memory(texels, memory, options)?;
     let charts =
         placed.into_iter().zip(surfaces).map(|((size, corners), surface)| Chart::Texels(TexelChart::new(size, corners, &surface.areas)));
@@ -212,13 +224,14 @@ fn charts(scene: &Scene, surfaces: &[MappedSurface], options: &MapOptions) -> Re
 const AUTOMATIC_CELLS: f64 = 65_536.0;
 
 /// Bytes that maps of so many cells over so many triangles take, all in all: sums, areas, and the values of both sides.
-fn memory_of(cells: u64, triangles: u64, options: &MapOptions) -> u64 {
+fn memory_of(cells: u64, triangles: u64, options: &MapOptions, sources: usize) -> u64 {
     let chart = match options.uv {
         Some(_) => TexelChart::memory(triangles as usize, cells),
         None => CellChart::memory(triangles),
     };
-    let values = 2 * SideMap::memory(options.colours, options.uv.is_none());
-    FluxTable::memory(2 * cells, options.colours) + chart + triangles * 8 + cells * (8 + values)
+    let values = 2 * SideMap::memory([options.colours, options.figures], options.uv.is_none());
+    let by_wavelength = if sources > 0 { figures::memory(2 * cells, sources as u64) } else { 0 };
+    FluxTable::memory(2 * cells, options.colours) + by_wavelength + chart + triangles * 8 + cells * (8 + values)
 }
 
 fn check_memory(cells: u64, memory: u64, options: &MapOptions) -> Result<()> {
@@ -235,16 +248,16 @@ fn check_memory(cells: u64, memory: u64, options: &MapOptions) -> Result<()> {
 }
 
 /// What light paths leave.
-struct Gathering<'a> {
-    places: &'a Places,
-    charts: &'a [Chart],
-    table: &'a FluxTable,
+pub(super) struct Gathering<'a> {
+    pub(super) places: &'a Places,
+    pub(super) charts: &'a [Chart],
+    pub(super) table: &'a FluxTable,
     /// What paths started with, and what was cut off.
-    batches: FixedSums,
+    pub(super) batches: FixedSums,
 }
 
 /// What a worker is told goes straight into the table.
-struct Keeper<'a> {
+pub(super) struct Keeper<'a> {
     places: &'a Places,
     charts: &'a [Chart],
     table: &'a FluxTable,
@@ -277,12 +290,12 @@ impl<'a> Collector for Gathering<'a> {
 }
 
 /// What is traced how.
-struct Tracing<'a> {
-    scene: &'a Scene,
-    compiled: &'a CompiledScene,
-    options: &'a MapOptions,
-    execution: Execution,
-    start: Instant,
+pub(super) struct Tracing<'a> {
+    pub(super) settings: &'a Settings,
+    pub(super) compiled: &'a CompiledScene,
+    pub(super) options: &'a MapOptions,
+    pub(super) execution: Execution,
+    pub(super) start: Instant,
 }
 
 /// Batches before the error is looked at for the first time, and between looks later: a net of the sampler's whole.
@@ -291,7 +304,13 @@ const WHOLE_NET: u64 = 256;
 
 impl Tracing<'_> {
     /// Traces until there is enough; gives the number of paths.
-    fn run(&self, sampler: &EmissionSampler, gathering: &Gathering<'_>, watch: &mut Watch<'_>, error: &dyn Fn() -> f64) -> Result<u64> {
+    pub(super) fn run(
+        &self,
+        sampler: &EmissionSampler,
+        gathering: &Gathering<'_>,
+        watch: &mut Watch<'_>,
+        error: &dyn Fn() -> f64,
+    ) -> Result<u64> {
         let settings = self.settings();
         let transport = transport(self.compiled, &settings, self.execution, [0.0; 3], [0.0, 0.0, -1.0]);
         let wanted = Wanted { arrivals: Arriving::All, specular_only: false, picture: None };
@@ -326,7 +345,7 @@ impl Tracing<'_> {
             clamp_indirect: 0.0,
             aovs: Vec::new(),
             shader_passes: Vec::new(),
-            ..self.scene.settings.clone()
+            ..self.settings.clone()
         }
     }
 }
@@ -408,7 +427,7 @@ fn finish(
     options: &MapOptions,
     sums: &dyn Fn(usize, usize) -> Sums,
 ) -> SurfaceMap {
-    let mut summaries = [Summary::default(); 2];
+    let mut summaries: [Summary; 2] = Default::default();
     let sides = [0, 1].map(|side| {
         let all = (0..areas.len()).fold(Sums::default(), |all, cell| all.plus(&sums(side, cell)));
         let area = surface.area();
@@ -418,6 +437,7 @@ fn finish(
             area,
             standard_error: all.squares.sqrt() / paths,
             extremes: [0.0; 2],
+            colour: None,
         };
         if all.count == 0.0 {
             return None;

@@ -31,6 +31,8 @@ pub struct MapOptions {
     pub time_limit_s: f64,
     /// Red, green and blue beside the luminous flux.
     pub colours: bool,
+    /// Figures of the light's colour too: lamps want spectra.
+    pub figures: bool,
     /// Most bytes.
     pub memory: u64,
     /// Scatterings of a path.
@@ -50,6 +52,7 @@ impl Default for MapOptions {
             paths: 1 << 24,
             time_limit_s: 0.0,
             colours: false,
+            figures: false,
             memory: 1 << 30,
             max_bounces: crate::measure::MOST_BOUNCES,
         }

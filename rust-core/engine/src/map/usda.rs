@@ -170,9 +170,8 @@ impl SurfaceMap {
     /// Mean lux of a triangle of divided ones; 0 of texels, and where nothing arrived.
     pub fn mean_of(&self, side: usize, triangle: usize, quantity: Quantity) -> f64 {
         let (Chart::Cells(chart), Some(map)) = (&self.chart, &self.sides[side]) else { return 0.0 };
-        let cells = chart.cells(triangle);
-        let count = cells.len() as f64;
-        let values = cells.map(|cell| map.value(cell, quantity)).filter(|lux| lux.is_finite());
-        values.map(f64::from).sum::<f64>() / count
+        let known = chart.cells(triangle).map(|cell| f64::from(map.value(cell, quantity))).filter(|value| value.is_finite());
+        let (sum, count) = known.fold((0.0, 0.0), |(sum, count), value| (sum + value, count + 1.0));
+        if count > 0.0 { sum / count } else { 0.0 }
     }
 }

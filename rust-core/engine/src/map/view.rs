@@ -2,7 +2,7 @@
 
 use super::{
     gather::{Chart, IlluminationMaps, SurfaceMap},
-    side::SideMap,
+    side::{PartColour, SideMap},
     smooth::{Facet, Smooth},
     within_errors::{Seen, smoothed},
 };
@@ -10,9 +10,9 @@ use crate::{
     accel::NONE,
     camera::{CameraTable, Lens, sampler::BATCH},
     compile::{CompiledScene, View},
-    error::Result,
+    error::{Error, Result},
     geometry::GeometryTable,
-    scene::{Antialiasing, Settings},
+    scene::{Antialiasing, Measurand, Settings},
     threads::in_pool,
     transport::{Start, Tracer, Workspace},
 };
@@ -31,6 +31,54 @@ pub enum Quantity {
     Indirect,
     /// The standard error of all light.
     StandardError,
+    /// A figure of the light's colour, one of [`PartColour::FIGURES`](super::PartColour::FIGURES).
+    Figure(Measurand),
+    /// Its standard error.
+    ErrorOf(Measurand),
+}
+
+impl Quantity {
+    /// By name: illuminance, direct, indirect, error, or that of a figure of colour.
+    ///
+    /// # Errors
+    /// Other names, with those that there are.
+    pub fn by_name(name: &str) -> Result<Self> {
+        match name {
+            "illuminance" => Ok(Self::Illuminance),
+            "direct" => Ok(Self::Direct),
+            "indirect" => Ok(Self::Indirect),
+            "error" => Ok(Self::StandardError),
+            _ => {
+                let figures = PartColour::FIGURES.map(Measurand::name).join(", ");
+                let problem =
+                    || format!("'{name}' was found, expected illuminance, direct, indirect, error or a figure of colour: {figures}");
+                let found = Measurand::by_name(name).filter(|measurand| PartColour::FIGURES.contains(measurand));
+                found.map(Self::Figure).ok_or_else(|| Error::setting("quantity", problem()))
+            }
+        }
+    }
+
+    /// Whether it is of the colour of light and not of how much there is.
+    pub fn is_of_colour(self) -> bool {
+        matches!(self, Self::Figure(measurand) if measurand.is_of_colour())
+    }
+
+    /// The sign of its unit.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Figure(measurand) | Self::ErrorOf(measurand) => measurand.unit(),
+            _ => "lx",
+        }
+    }
+
+    /// Its standard error, which has none of its own.
+    fn error(self) -> Option<Self> {
+        match self {
+            Self::Illuminance | Self::Direct | Self::Indirect => Some(Self::StandardError),
+            Self::Figure(measurand) => Some(Self::ErrorOf(measurand)),
+            Self::StandardError | Self::ErrorOf(_) => None,
+        }
+    }
 }
 
 /// How a map is looked at.
@@ -74,8 +122,7 @@ pub fn view(
     let values = in_pool(|| {
         let chunks = seen.par_chunks_mut(pixels).enumerate();
         chunks.for_each_init(|| scene.workspaces.take(), |workspace, (number, seen)| looking.look(number * pixels, seen, workspace));
-        // A standard error has none of its own.
-        let smooths = looks.smooth && quantity != Quantity::StandardError;
+        let smooths = looks.smooth && quantity.error().is_some();
         if smooths { smoothed(&seen, size[0]) } else { seen.iter().map(|pixel| pixel.value).collect() }
     });
     Ok((values, size))
@@ -128,7 +175,8 @@ impl Looking<'_> {
                 Some(smooth) => smooth.at(hits.primitive[ray], place),
                 None => map.at(side, hits.primitive[ray], place, self.quantity),
             };
-            let (pixel, error) = (slot as usize / rays, map.at(side, hits.primitive[ray], place, Quantity::StandardError));
+            let error = self.quantity.error().map_or(0.0, |error| map.at(side, hits.primitive[ray], place, error));
+            let pixel = slot as usize / rays;
             if value.is_finite() {
                 counts[pixel] += 1;
                 let part = 1.0 / counts[pixel] as f32;
@@ -214,6 +262,8 @@ impl SideMap {
             Quantity::Direct => self.direct[cell],
             Quantity::Indirect => self.illuminance[cell] - self.direct[cell],
             Quantity::StandardError => self.standard_error[cell],
+            Quantity::Figure(figure) => self.figures.get(cell).map_or(f32::NAN, |colour| colour.of(figure)[0]),
+            Quantity::ErrorOf(figure) => self.figures.get(cell).map_or(f32::NAN, |colour| colour.of(figure)[1]),
         }
     }
 }
