@@ -15,6 +15,8 @@ from .report import Report
 LEVEL = 0.999
 # What the figures of a quantity are called; of others they are illuminances.
 SYMBOLS = {"daylight-factor": "D", "ugr": "UGR", "cct": "CCT", "duv": "Duv", "ra": "Ra", "rf": "Rf", "rg": "Rg"}
+# Quantities that eyes have.
+OF_EYES = ("illuminance", "melanopic-edi", "cct", "duv", "ra", "rf", "rg")
 # Quantities that are how much light there is, of which evenness can be told.
 AMOUNTS = ("illuminance", "cylindrical", "daylight-factor", "melanopic-edi")
 
@@ -102,6 +104,7 @@ class Meter:
             margin=settings.grid_margin,
             height=settings.grid_height,
             facing=tuple(evaluated.matrix_world.col[1][:3]),
+            eyes=settings.grid_eyes if settings.grid_eyes and settings.grid_quantity in OF_EYES else None,
             quantity=settings.grid_quantity,
             name=thing.name,
         )
@@ -152,7 +155,10 @@ def grid_lines(reading) -> tuple[str, ...]:
     figures = (("avg", reading.average), ("min", reading.min), ("max", reading.max))
     lines = [" ".join(f"{symbol}_{name}: {figure.value:.4g} {unit} ± {figure.standard_error:.2g}".split()) for name, figure in figures]
     columns, rows = reading.size
-    if reading.quantity in AMOUNTS:
+    least = np.asarray(reading.leasts) if reading.leasts is not None else np.empty(0)
+    if np.isfinite(least).any():
+        lines.append(" ".join(f"Least eye of {len(np.asarray(reading.facings))} directions: {np.nanmin(least):.4g} {unit}".split()))
+    elif reading.quantity in AMOUNTS:
         lines.append(f"U0: {reading.uniformity:.3f}   Ud: {reading.diversity:.3f}")
     lines += [f"{columns} × {rows} points", *_tabular(reading), *_left_out(reading.coverage)]
     return tuple(lines)

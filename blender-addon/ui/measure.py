@@ -72,7 +72,8 @@ class GONIO_OBJECT_PT_grid(GonioPanel, Panel):
         layout.use_property_split = True
         layout.use_property_decorate = False
         layout.active = settings.is_grid
-        for name in ("grid_quantity", "grid_spacing", "grid_margin", "grid_height", "is_grid_only"):
+        of_eyes = ("grid_eyes",) if settings.grid_quantity in measuring.OF_EYES else ()
+        for name in ("grid_quantity", *of_eyes, "grid_spacing", "grid_margin", "grid_height", "is_grid_only"):
             layout.prop(settings, name)
         layout.operator("gonio.measure_grids", icon="MESH_GRID")
         reading = measuring.latest.grids.get(context.object.name)

@@ -2,11 +2,13 @@
 
 use crate::context::{Context, UpAxis};
 use crate::prim::Prim;
-use gonio::scene::{Grid, GridArea, Measurand, MeshId, Meter, Transform};
+use gonio::scene::{Eyes, Grid, GridArea, Measurand, MeshId, Meter, Transform};
 
 /// The attributes' names begin so.
 const GRID: &str = "gonio:grid:";
 const METER: &str = "gonio:meter:";
+/// The most directions of eyes.
+const MOST_DIRECTIONS: i32 = 64;
 
 /// Whether the prim is a grid or a meter.
 pub(crate) fn is_measured(prim: &Prim<'_>) -> bool {
@@ -44,7 +46,23 @@ fn grid<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, mesh: Option<Mesh
     let [_, ahead] = axes(context.up_axis);
     let facing = direction(context, prim, &format!("{GRID}facing"), ahead);
     let [spacing, margin, height] = ["spacing", "margin", "height"].map(|name| length(context, prim, &format!("{GRID}{name}")));
-    Some(Grid { origin: prim.origin(), area, spacing, margin, height, facing: transform.vector(facing), measurand })
+    let eyes = eyes(context, prim);
+    Some(Grid { origin: prim.origin(), area, spacing, margin, height, facing: transform.vector(facing), eyes, measurand })
+}
+
+/// Eyes at the points, which look so many ways around; none where none are asked for.
+fn eyes<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>) -> Option<Eyes> {
+    let name = format!("{GRID}eyes");
+    let found: i32 = context.get_authored(prim, &name)?;
+    if (1..=MOST_DIRECTIONS).contains(&found) {
+        return Some(Eyes::Around(found.unsigned_abs()));
+    }
+    if found != 0 {
+        let problem =
+            format!("{name} is {found}, expected so many directions from 1 to {MOST_DIRECTIONS}, 0 for none; the plane is measured");
+        context.warn(&prim.origin(), problem);
+    }
+    None
 }
 
 /// The level rectangle of `gonio:grid:size` about the prim's origin.

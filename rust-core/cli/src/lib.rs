@@ -16,6 +16,7 @@ mod denoise;
 mod dim;
 mod drawing;
 mod explain;
+mod eyes;
 mod falsecolor;
 mod farm;
 mod file;

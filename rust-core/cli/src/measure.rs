@@ -2,7 +2,7 @@
 
 use super::{
     arguments::{GridArguments, MeasureOptions, MeasuringArguments, TextureArguments, WorkArguments},
-    daylight, falsecolor,
+    daylight, eyes, falsecolor,
     file::{check_ending, check_targets, print_path, put},
     glare::coverage_json,
     interrupt::goes_on,
@@ -49,8 +49,9 @@ pub(super) fn loaded(py: Python<'_>, options: &MeasuringArguments, interrupted: 
     let mut stage_options = stage_options(&options.stage)?;
     stage_options.time = options.frame.map_or(SampleTime::Start, SampleTime::Code);
     let stage = Stage::open(py, &options.stage.stage, &options.stage.state, &stage_options)?;
-    author_grids(py, &stage, &options.grids, measurand)?;
+    author_grids(py, &stage, &eyes::at_eyes(&options.grids, &options.eyes), measurand)?;
     let mut loaded = stage.load(py, &stage_options, interrupted)?;
+    eyes::open(&mut loaded.scene, &options.grids, &options.eyes, &options.facing)?;
     let points = points(options, measurand.unwrap_or(Measurand::Illuminance), loaded.info.up_axis)?;
     take_points(&mut loaded.scene, &options.grids, points);
     daylight::add(&options.daylight, &mut loaded, options.stage.strict, options.quiet)?;
@@ -104,11 +105,11 @@ fn run(options: &MeasureOptions, loaded: Loaded, interrupted: &'static AtomicBoo
         draw(&found.grids, path, !measuring.quiet && !measuring.json, scale)?;
     }
     if measuring.json {
-        print(&as_json(&found, &loaded.diagnostics).to_string());
+        print(&as_json(&found, options.target, &loaded.diagnostics).to_string());
     } else {
         found.meters.iter().for_each(|meter| print(&meter_line(meter)));
         SensorGrid::all(&found.meters).iter().flat_map(sensor_grid_lines).for_each(|line| print(&line));
-        found.grids.iter().flat_map(grid_lines).for_each(|line| print(&line));
+        found.grids.iter().flat_map(|grid| grid_lines(grid, options.target)).for_each(|line| print(&line));
     }
     Ok(0)
 }
@@ -156,8 +157,11 @@ pub(super) fn apply_settings(
 /// The meters of `--at`.
 fn points(options: &MeasuringArguments, measurand: Measurand, axis: UpAxis) -> Result<Vec<Meter>> {
     let [up, ahead] = gonio_usd::meter::axes(axis);
-    let direction = |name: &str, text: &Option<String>, otherwise| text.as_ref().map_or(Ok(otherwise), |text| triple(name, text));
-    let (normal, facing) = (direction("normal", &options.normal, up)?, direction("facing", &options.facing, ahead)?);
+    let direction = |name: &str, text: Option<&String>, otherwise| text.map_or(Ok(otherwise), |text| triple(name, text));
+    if options.facing.len() > 1 && !options.at.is_empty() {
+        return Err(Error::setting("facing", "points of --at face one way; several are for --eyes"));
+    }
+    let (normal, facing) = (direction("normal", options.normal.as_ref(), up)?, direction("facing", options.facing.first(), ahead)?);
     let meter = |text: &String| {
         let position = triple("at", text)?;
         Ok(Meter { origin: Origin::new(text), position, normal, facing, measurand })
@@ -207,7 +211,7 @@ fn meter_line(meter: &MeterReading) -> String {
 }
 
 /// Places of a value and of its error: those that matter of figures of colour, else these.
-fn places(measurand: Measurand, others: [usize; 2]) -> [usize; 2] {
+pub(super) fn places(measurand: Measurand, others: [usize; 2]) -> [usize; 2] {
     match measurand {
         Measurand::Cct => [1; 2],
         Measurand::Duv => [5; 2],
@@ -217,22 +221,22 @@ fn places(measurand: Measurand, others: [usize; 2]) -> [usize; 2] {
 }
 
 /// A value of so many places with its standard error; in words where there is none.
-fn figure(Reading { value, standard_error }: &Reading, [places, of_error]: [usize; 2], unit: &str) -> String {
+pub(super) fn figure(Reading { value, standard_error }: &Reading, [places, of_error]: [usize; 2], unit: &str) -> String {
     if value.is_nan() { "not measured".into() } else { format!("{value:.places$}{unit} ± {standard_error:.of_error$}") }
 }
 
 /// The unit's sign with a blank before it; nothing where there is none.
-fn spaced(measurand: Measurand) -> String {
+pub(super) fn spaced(measurand: Measurand) -> String {
     let unit = measurand.unit();
     if unit.is_empty() { String::new() } else { format!(" {unit}") }
 }
 
 /// The figures of a grid's points.
-fn summary_lines(measurand: Measurand, summary: &Summary) -> Vec<String> {
+fn summary_lines(measurand: Measurand, summary: &Summary, evenness: bool) -> Vec<String> {
     let (unit, places) = (spaced(measurand), places(measurand, [2; 2]));
     let figure = |name: &str, reading: &Reading| format!("  {name}: {}", figure(reading, places, &unit));
     let mut lines = vec![figure("average", &summary.average), figure("least", &summary.min), figure("greatest", &summary.max)];
-    if measurand.is_amount() {
+    if evenness && measurand.is_amount() {
         lines.push(format!("  U0 (least / average): {:.3}", summary.uniformity()));
         lines.push(format!("  Ud (least / greatest): {:.3}", summary.diversity()));
     }
@@ -241,24 +245,24 @@ fn summary_lines(measurand: Measurand, summary: &Summary) -> Vec<String> {
 
 fn sensor_grid_lines(grid: &SensorGrid) -> Vec<String> {
     let head = format!("{}: {}, {} points together", grid.name, grid.measurand.name(), grid.summary.points);
-    std::iter::once(head).chain(summary_lines(grid.measurand, &grid.summary)).collect()
+    std::iter::once(head).chain(summary_lines(grid.measurand, &grid.summary, true)).collect()
 }
 
-fn grid_lines(grid: &GridReading) -> Vec<String> {
+fn grid_lines(grid: &GridReading, target: Option<f64>) -> Vec<String> {
     let ([columns, rows], [along, across]) = (grid.size, grid.spacing);
-    let mut lines = vec![format!(
-        "{}: {}, {columns} × {rows} points ({} measured), {along:.3} × {across:.3} m apart",
-        grid.origin,
-        grid.measurand.name(),
-        grid.summary.points
-    )];
-    lines.extend(summary_lines(grid.measurand, &grid.summary));
+    let ways = grid.eyes.as_ref().map_or(String::new(), |eyes| format!(", mean of {} directions of eyes", eyes.facings.len()));
+    let (name, points) = (grid.measurand.name(), grid.summary.points);
+    let mut lines =
+        vec![format!("{}: {name}{ways}, {columns} × {rows} points ({points} measured), {along:.3} × {across:.3} m apart", grid.origin)];
+    lines.extend(summary_lines(grid.measurand, &grid.summary, grid.eyes.is_none()));
+    lines.extend(eyes::lines(grid));
+    lines.extend(target.map(|target| eyes::reaching_line(grid, target)));
     lines.extend(grid.rating_note().map(|note| format!("  {note}")));
     lines
 }
 
 /// `of_stage`: what was not as asked before anything was measured.
-fn as_json(found: &Measurements, of_stage: &[Diagnostic]) -> Value {
+fn as_json(found: &Measurements, target: Option<f64>, of_stage: &[Diagnostic]) -> Value {
     let meter = |meter: &MeterReading| {
         json!({
             "name": &*meter.meter.origin.name,
@@ -275,6 +279,8 @@ fn as_json(found: &Measurements, of_stage: &[Diagnostic]) -> Value {
     };
     let grid = |grid: &GridReading| {
         let mut all = summary_json(&grid.origin.name, grid.measurand, &grid.summary);
+        let in_rows =
+            |of: fn(&Reading) -> f64| json!(grid.points.iter().map(|point| point.map(|(_, reading)| of(&reading))).collect::<Vec<_>>());
         let more = [
             ("columns", json!(grid.size[0])),
             ("rows", json!(grid.size[1])),
@@ -284,7 +290,10 @@ fn as_json(found: &Measurements, of_stage: &[Diagnostic]) -> Value {
             ("ugr_small_sources", json!(grid.small.iter().map(|small| small.count).collect::<Vec<_>>())),
             ("ugr_as_in_tables", json!(grid.small.iter().map(|small| small.tabular.map(|reading| reading.value)).collect::<Vec<_>>())),
             ("colours", json!(grid.colours.iter().map(|colour| colour_json(colour)).collect::<Vec<_>>())),
-            ("values", json!(grid.points.iter().map(|point| point.map(|(_, reading)| reading.value)).collect::<Vec<_>>())),
+            ("values", in_rows(|reading| reading.value)),
+            ("standard_errors", in_rows(|reading| reading.standard_error)),
+            ("eyes", eyes::eyes_json(grid)),
+            ("target", eyes::reaching_json(grid, target)),
         ];
         all.extend(more.map(|(name, value)| (name.to_owned(), value)));
         Value::Object(all)
@@ -298,7 +307,7 @@ fn as_json(found: &Measurements, of_stage: &[Diagnostic]) -> Value {
     })
 }
 
-fn reading_json(reading: &Reading) -> Value {
+pub(super) fn reading_json(reading: &Reading) -> Value {
     json!({ "value": reading.value, "standard_error": reading.standard_error })
 }
 
@@ -319,7 +328,7 @@ fn summary_json(name: &str, measurand: Measurand, summary: &Summary) -> Map<Stri
 }
 
 /// All that a spectrum says which a meter got, and the spectrum.
-fn colour_json(colour: &ColourReading) -> Value {
+pub(super) fn colour_json(colour: &ColourReading) -> Value {
     let mut all = colour.figures.as_ref().map(figures_json).unwrap_or_default();
     let named = Measurand::OF_COLOUR.map(|measurand| (measurand.name(), colour.of(measurand)));
     let others = [("illuminance_lx", Some(colour.illuminance)), ("melanopic_edi_lx", colour.melanopic_edi())];

@@ -62,7 +62,7 @@ fn run(options: &SunlightOptions, loaded: &Loaded, task: &SunlightTask, interrup
     tell(&loaded.diagnostics);
     let scene = &loaded.scene;
     let (meters, grids) = (&scene.meters, GridPoints::of_scene(scene)?);
-    let of_grids = scene.grids.iter().zip(&grids).flat_map(|(grid, points)| points.meters(grid));
+    let of_grids = scene.grids.iter().zip(&grids).flat_map(|(grid, points)| points.planes(grid));
     // The sun is seen from planes, whatever they measure.
     let plane = |meter: Meter| Meter { measurand: Measurand::Illuminance, ..meter };
     let points: Vec<Meter> = meters.iter().cloned().chain(of_grids).map(plane).collect();

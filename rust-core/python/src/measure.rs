@@ -76,7 +76,7 @@ impl Reading {
 }
 
 /// What the spectrum at a meter says.
-fn colour_described<'py>(py: Python<'py>, colour: &measure::ColourReading) -> PyResult<Bound<'py, PyDict>> {
+pub(crate) fn colour_described<'py>(py: Python<'py>, colour: &measure::ColourReading) -> PyResult<Bound<'py, PyDict>> {
     let described = match &colour.figures {
         Some(figures) => figures_described(py, figures)?,
         None => PyDict::new(py),
@@ -107,9 +107,17 @@ impl GridReading {
     fn summary(&self) -> &Summary {
         &self.grid.summary
     }
-    fn rows(&self, value: impl Fn(&([f64; 3], measure::Reading)) -> f64) -> Array {
-        let values = self.grid.points.iter().map(|point| point.as_ref().map_or(f64::NAN, &value)).collect();
+    fn rows(&self, mut value: impl FnMut(&([f64; 3], measure::Reading)) -> f64) -> Array {
+        let values = self.grid.points.iter().map(|point| point.as_ref().map_or(f64::NAN, &mut value)).collect();
         Array::rows(values, self.grid.size[0])
+    }
+    fn of_eyes(&self, value: impl Fn(&measure::Reading) -> f64) -> Option<Array> {
+        let eyes = self.grid.eyes.as_ref()?;
+        Some(Array::rows(eyes.views.iter().flatten().map(value).collect(), eyes.facings.len()))
+    }
+    fn least_of_eyes(&self, value: impl Fn(&measure::Reading) -> f64) -> Option<Array> {
+        let mut leasts = self.grid.eyes.as_ref()?.leasts().into_iter();
+        Some(self.rows(move |_| leasts.next().map_or(f64::NAN, |reading| value(&reading))))
     }
 }
 
@@ -165,7 +173,7 @@ impl GridReading {
     fn coverage(&self) -> Vec<Coverage> {
         self.grid.coverage.iter().map(Coverage::of).collect()
     }
-    /// Of figures of colour what `Reading.colour` has, of each point that was measured; empty of other quantities.
+    /// Of figures of colour what `Reading.colour` has, of each point that was measured, and of eyes direction by direction; empty of other quantities.
     #[getter]
     fn colours<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
         self.grid.colours.iter().map(|colour| colour_described(py, colour)).collect()
@@ -184,6 +192,51 @@ impl GridReading {
     #[getter]
     fn coverage_note(&self) -> Option<String> {
         self.grid.coverage_note()
+    }
+    /// Where the eyes of each point look, unit vectors (D, 3); None of grids without eyes.
+    #[getter]
+    fn facings(&self) -> Option<Array> {
+        self.grid.eyes.as_ref().map(|eyes| Array::rows(eyes.facings.concat(), 3))
+    }
+    /// What each eye gets, points that were measured × directions; None of grids without eyes. `values` are their means over the directions.
+    #[getter]
+    fn eye_values(&self) -> Option<Array> {
+        self.of_eyes(|reading| reading.value)
+    }
+    /// Standard errors of `eye_values`.
+    #[getter]
+    fn eye_standard_errors(&self) -> Option<Array> {
+        self.of_eyes(|reading| reading.standard_error)
+    }
+    /// Each point's least direction, in rows and columns; None of grids without eyes.
+    #[getter]
+    fn leasts(&self) -> Option<Array> {
+        self.least_of_eyes(|reading| reading.value)
+    }
+    /// Standard errors of `leasts`.
+    #[getter]
+    fn least_standard_errors(&self) -> Option<Array> {
+        self.least_of_eyes(|reading| reading.standard_error)
+    }
+    /// Which shares reach a value, 0 to 1: of the `points` (those with eyes by their mean over the directions), and of grids with eyes `points_all_ways`
+    /// (their least direction) and `eyes` (each for itself). Each has `count`, `share`, its `standard_error`, two of which take in what the readings'
+    /// own errors leave open, and `share_within_error`, the share of these.
+    fn reaching<'py>(&self, py: Python<'py>, target: f64) -> PyResult<Bound<'py, PyDict>> {
+        let all = PyDict::new(py);
+        let add = |name: &str, found: measure::Reaching| -> PyResult<()> {
+            let share = PyDict::new(py);
+            share.set_item("count", found.count)?;
+            share.set_item("share", found.share().value)?;
+            share.set_item("standard_error", found.share().standard_error)?;
+            share.set_item("share_within_error", found.share_open())?;
+            all.set_item(name, share)
+        };
+        add("points", self.grid.reaching(target))?;
+        if let Some(eyes) = &self.grid.eyes {
+            add("points_all_ways", eyes.reaching_all_ways(target))?;
+            add("eyes", eyes.reaching_views(target))?;
+        }
+        Ok(all)
     }
     /// U₀: least over average.
     #[getter]

@@ -1,6 +1,6 @@
 //! Where light is measured: meters at points, and calculation grids.
 
-use super::{MeshId, Origin, Transform};
+use super::{Eyes, MeshId, Origin, Transform};
 use serde::{Deserialize, Serialize};
 
 /// What is measured.
@@ -79,6 +79,10 @@ impl Measurand {
     pub fn wants_spectra(self) -> bool {
         matches!(self, Self::MelanopicEdi | Self::Ra | Self::Rf | Self::Rg)
     }
+    /// Whether eyes have it, which look their own ways: what the plane before them gets.
+    pub fn is_of_eyes(self) -> bool {
+        self.is_of_colour() || matches!(self, Self::Illuminance | Self::MelanopicEdi)
+    }
     /// Whether it is how much light there is, in parts of which its evenness can be told.
     pub fn is_amount(self) -> bool {
         !self.is_of_colour() && self != Self::Ugr
@@ -149,6 +153,8 @@ pub struct Grid {
     pub height: f64,
     /// As a meter's.
     pub facing: [f64; 3],
+    /// Where eyes at the points look; the area's plane is measured without any.
+    pub eyes: Option<Eyes>,
     /// What is measured.
     pub measurand: Measurand,
 }
@@ -163,6 +169,7 @@ impl Default for Grid {
             margin: 0.0,
             height: 0.0,
             facing: [0.0, 1.0, 0.0],
+            eyes: None,
             measurand: Measurand::default(),
         }
     }

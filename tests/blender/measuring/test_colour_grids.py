@@ -42,3 +42,34 @@ def test_lamps_without_a_spectrum_have_no_colour_rendering():
     floor.gonio.is_grid, floor.gonio.grid_spacing, floor.gonio.grid_quantity = True, 10.0, "ra"
     with pytest.raises(RuntimeError, match="Lamp.*spectrum"):
         bpy.ops.gonio.measure_grids(samples=64)
+
+
+@pytest.mark.blender
+def test_eyes_at_the_points_of_a_grid():
+    import importlib
+
+    import bpy
+    import numpy
+    import scenes
+
+    scenes.lit_floor()
+    measuring = importlib.import_module("gonio_extension.measuring")
+    settings = bpy.data.objects["Lamp"].data.gonio
+    settings.use_photometry, settings.spectrum = True, "LED-B3"
+    floor = bpy.data.objects["Floor"].gonio
+    floor.is_grid, floor.grid_spacing, floor.grid_height, floor.grid_eyes = True, 10.0, 1.2, 4
+    found = {}
+    for quantity in ("illuminance", "melanopic-edi"):
+        floor.grid_quantity = quantity
+        assert bpy.ops.gonio.measure_grids(samples=1024) == {"FINISHED"}
+        reading = measuring.latest.grids["Floor"]
+        assert numpy.allclose(reading.facings, [(0, 1, 0), (1, 0, 0), (0, -1, 0), (-1, 0, 0)], atol=1e-6)
+        eyes = numpy.asarray(reading.eye_values)
+        assert eyes.shape == (4, 4) and numpy.allclose(numpy.ravel(reading.values), eyes.mean(axis=1))
+        assert any(line.startswith("Least eye of 4 directions: ") and line.endswith(" lx") for line in measuring.grid_lines(reading))
+        found[quantity] = eyes.mean()
+    # The floor is grey, so that the light keeps the lamp's ratio.
+    assert found["melanopic-edi"] / found["illuminance"] == pytest.approx(0.6326, rel=0.02)
+    # What eyes do not have is measured on the surface.
+    floor.grid_quantity = "cylindrical"
+    assert bpy.ops.gonio.measure_grids(samples=64) == {"FINISHED"} and measuring.latest.grids["Floor"].facings is None

@@ -17,8 +17,8 @@ use gonio::{
     Diagnostic, Error, Result,
     annual::{AnnualTask, told},
     annual_glare::{Eye, EyesTraced, trace_eyes},
-    measure::GridPoints,
-    scene::{Integrator, Origin, Scene},
+    measure::{GridPoints, around},
+    scene::{Integrator, Origin, SITTING, Scene},
     sky::Frame,
 };
 use gonio_annual::{EyeGlare, GlareYear, Schedule, Year, to_npy};
@@ -33,8 +33,6 @@ use std::{
 
 /// The most eyes whose year is drawn each.
 const MOST_DRAWN: usize = 24;
-/// Metres from a grid's surface to eyes, where nothing says so: those of somebody who sits.
-const EYE_HEIGHT: f64 = 1.2;
 
 /// Traces the eyes and rates their year.
 pub(crate) fn annual_glare(py: Python<'_>, options: &AnnualGlareOptions, interrupted: &'static AtomicBool) -> Result<i32> {
@@ -43,7 +41,7 @@ pub(crate) fn annual_glare(py: Python<'_>, options: &AnnualGlareOptions, interru
     let stage_options = stage_options(&options.stage)?;
     let stage = Stage::open(py, &options.stage.stage, &options.stage.state, &stage_options)?;
     let mut grids = options.grids.clone();
-    grids.height = grids.height.or((!grids.grid.is_empty()).then_some(EYE_HEIGHT));
+    grids.height = grids.height.or((!grids.grid.is_empty()).then_some(SITTING));
     author_grids(py, &stage, &grids, None)?;
     let mut loaded = stage.load(py, &stage_options, interrupted)?;
     loaded.scene.grids.retain(|grid| grids.grid.iter().any(|prim| *prim == *grid.origin.name));
@@ -91,16 +89,6 @@ fn eyes(options: &AnnualGlareOptions, scene: &Scene, up: [f64; 3], ahead: [f64; 
         return Err(Error::setting("eye", "there is nobody who looks; name an eye with --eye X,Y,Z or a floor with --grid /Prim"));
     }
     Ok(eyes)
-}
-
-/// Level directions, even around, the first one ahead.
-fn around(up: [f64; 3], ahead: [f64; 3], count: u32) -> Vec<[f64; 3]> {
-    let right = [ahead[1] * up[2] - ahead[2] * up[1], ahead[2] * up[0] - ahead[0] * up[2], ahead[0] * up[1] - ahead[1] * up[0]];
-    let direction = |number: u32| {
-        let (sin, cos) = (std::f64::consts::TAU * f64::from(number) / f64::from(count)).sin_cos();
-        std::array::from_fn(|axis| cos * ahead[axis] + sin * right[axis])
-    };
-    (0..count).map(direction).collect()
 }
 
 /// The year of all eyes.

@@ -1,13 +1,14 @@
 //! What `gonio measure` takes; it shares most with `gonio dim`, and grids with `gonio report`.
 
 use super::daylight::DaylightArguments;
+use super::eyes::EyeArguments;
 use super::falsecolor::ScaleArguments;
 use super::integrator::IntegratorArgument;
 use super::number::{count, finite};
 use super::stage::StageArguments;
 use super::texture::TextureArguments;
 use super::work::WorkArguments;
-use clap::Args;
+use clap::{ArgGroup, Args};
 use std::path::PathBuf;
 
 /// The end of `gonio measure --help`.
@@ -16,6 +17,7 @@ pub(super) const MEASURE_EXAMPLES: &str = "Examples:
   gonio measure office.usda --at 2,3,1.2 --quantity cylindrical
   gonio measure office.usda --at 2,3,1.2 --quantity ugr --facing 1,0,0
   gonio measure office.usda --at 2,3,0.75 --quantity ra --json
+  gonio measure office.usda --grid /Office/Floor --eyes sitting --quantity melanopic-edi --target 250
   gonio measure office.usda --grid /Office/Floor --quantity daylight-factor --sun 48.21,16.37,2025-03-21T12:00+01:00 --sky overcast";
 
 /// Calculation grids beside the stage's own.
@@ -37,6 +39,7 @@ pub(crate) struct GridArguments {
 
 /// What is measured, where and how: what `gonio measure` and `gonio dim` share.
 #[derive(Args, Debug)]
+#[command(group = ArgGroup::new("looking").args(["at", "eyes"]).multiple(true))]
 pub(crate) struct MeasuringArguments {
     #[command(flatten)]
     pub(crate) stage: StageArguments,
@@ -45,15 +48,17 @@ pub(crate) struct MeasuringArguments {
     pub(crate) frame: Option<f64>,
     #[command(flatten)]
     pub(crate) grids: GridArguments,
+    #[command(flatten)]
+    pub(crate) eyes: EyeArguments,
     /// Measure at this point of the world, in metres, and nothing that the stage asks for besides; may be given several times.
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     pub(crate) at: Vec<String>,
     /// The normal of the plane that these points measure, or the axis of their cylinders; without it up.
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, requires = "at")]
     pub(crate) normal: Option<String>,
-    /// Where half cylinders, luminance meters and eyes at these points face; without it +Y where Z is up, -Z where Y is up.
-    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, requires = "at")]
-    pub(crate) facing: Option<String>,
+    /// Where half cylinders, luminance meters and eyes at these points face; without it +Y where Z is up, -Z where Y is up. Where the eyes of --eyes look; several times for several directions.
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, requires = "looking")]
+    pub(crate) facing: Vec<String>,
     /// What these grids and points measure: illuminance, cylindrical, semicylindrical (lx), daylight-factor (%), luminance (cd/m²), melanopic-edi (lx at an eye that looks along --facing; lamps want spectra), cct (K), duv, ra, rf, rg (colour of the light on the plane; the last three want lamps' spectra), ugr (the luminaires' glare at an eye there); without it as the grid's prim says, else illuminance.
     #[arg(long, value_name = "QUANTITY")]
     pub(crate) quantity: Option<String>,
@@ -90,6 +95,9 @@ pub(crate) struct MeasureOptions {
     /// Write every point with its value and standard error.
     #[arg(long, value_name = "FILE.csv")]
     pub(crate) csv: Option<PathBuf>,
+    /// Tell which shares of the grids' points, and of their eyes, reach this value in the quantity's unit, and which the errors leave open.
+    #[arg(long, value_name = "VALUE", allow_hyphen_values = true, value_parser = finite::<f64>)]
+    pub(crate) target: Option<f64>,
     #[command(flatten)]
     pub(crate) scale: ScaleArguments,
 }

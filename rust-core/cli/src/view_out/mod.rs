@@ -18,8 +18,8 @@ use areas::Areas;
 use gonio::{
     Result,
     measure::Watch,
-    scene::{Meter, Origin, Scene},
-    view_out::{EYE_HEIGHT_M, ViewTask, view_out as seen},
+    scene::{Meter, Origin, SITTING, Scene},
+    view_out::{ViewTask, view_out as seen},
 };
 use gonio_simd::Execution;
 use gonio_usd::{Loaded, meter::axes};
@@ -31,7 +31,7 @@ pub(super) fn view_out(py: Python<'_>, options: &ViewOutOptions, interrupted: &'
     let stage_options = stage_options(&options.stage)?;
     let stage = Stage::open(py, &options.stage.stage, &options.stage.state, &stage_options)?;
     let mut grids = options.grids.clone();
-    grids.height = grids.height.or((!grids.grid.is_empty()).then_some(EYE_HEIGHT_M));
+    grids.height = grids.height.or((!grids.grid.is_empty()).then_some(SITTING));
     author_grids(py, &stage, &grids, None)?;
     let mut loaded = stage.load(py, &stage_options, interrupted)?;
     options.work.apply(&mut loaded.scene.settings);

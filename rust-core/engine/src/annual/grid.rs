@@ -38,6 +38,11 @@ impl AnnualGrid {
                 diagnostics.push(left_out(&grid.origin, grid.measurand));
                 continue;
             }
+            if grid.eyes.is_some() {
+                let message = "a year is calculated of planes; the eyes of this grid are left out (gonio annual-glare rates eyes)";
+                diagnostics.push(Diagnostic::warning(&grid.origin, message));
+                continue;
+            }
             let points = GridPoints::new(scene, grid)?;
             let positions: Vec<_> = points.known().collect();
             let mut found = Self::named(&grid.origin, &grid.origin.name, &grids);

@@ -51,10 +51,8 @@ impl<'a, 'b> Run<'a, 'b> {
 
 fn by_name(found: &Measurements) -> Vec<Named> {
     let meters = found.meters.iter().map(|meter| (meter.meter.origin.name.to_string(), vec![meter.reading]));
-    let grids = found.grids.iter().map(|grid| {
-        let readings = grid.points.iter().flatten().map(|(_, reading)| *reading).collect();
-        (grid.origin.name.to_string(), readings)
-    });
+    // Eyes count one by one: so the mean is that of the points' means, and the least that of the least eye.
+    let grids = found.grids.iter().map(|grid| (grid.origin.name.to_string(), grid.readings()));
     meters.chain(grids).collect()
 }
 

@@ -7,11 +7,13 @@ mod daylight_factor;
 mod disc;
 mod discs;
 mod eye;
+mod eyes;
 pub mod glare;
 mod missed;
 mod outline;
 mod picture;
 mod points;
+mod reaching;
 mod reading;
 mod room;
 mod sense;
@@ -29,11 +31,14 @@ pub use coefficients::{
     DaylightCoefficients, Keeping, Kept, ROUNDS, Round, SkyTask, daylight_coefficients, is_of, sun_coefficients, trace_rounds,
 };
 pub use csv::{csv, quoted};
+pub use eyes::{EyeReadings, around};
 pub use picture::value_picture;
 pub use points::{GridPoints, MOST_POINTS};
+pub use reaching::Reaching;
 pub use reading::{GridReading, MeterReading, Reading, SensorGrid, SmallSources, Summary};
 pub use room::Room;
 pub use spectral::ColourReading;
+pub(crate) use spectral::{SourceScene, by_spectrum, check_spectra};
 pub use straight::{StraightLight, straight_light};
 pub use watch::{MOST_BOUNCES, Watch};
 
@@ -79,7 +84,7 @@ pub fn measure(scene: &Scene, execution: Execution, watch: &mut Watch<'_>) -> Re
     let (single, mut rest) = readings.split_at(scene.meters.len());
     let meters = scene.meters.iter().zip(single).map(|(meter, found)| MeterReading::new(meter, found)).collect();
     let mut of_grid = |(grid, points): (&crate::scene::Grid, GridPoints)| {
-        let (own, others) = rest.split_at(points.known().count());
+        let (own, others) = rest.split_at(points.count());
         rest = others;
         GridReading::new(grid, points, own)
     };

@@ -1,6 +1,7 @@
 //! Where a grid's points lie.
 
 use super::{
+    eyes::facings,
     outline::{Lattice, Outline},
     vector::{Vector, across, add, cross, length, scaled, unit},
 };
@@ -25,13 +26,15 @@ pub struct GridPoints {
     pub normal: Vector,
     /// Square metres of the whole surface, margins included, seen along the normal.
     pub area: f64,
+    /// Where eyes at each point look, unit vectors; empty where the area's plane is measured.
+    pub facings: Vec<Vector>,
 }
 
 impl GridPoints {
     /// Lays a grid out.
     ///
     /// # Errors
-    /// An area without extent, lengths that are not finite, or more than [`MOST_POINTS`] points.
+    /// An area without extent, lengths that are not finite, more than [`MOST_POINTS`] points, or eyes that look nowhere.
     pub fn new(scene: &Scene, grid: &Grid) -> Result<Self> {
         let lengths = [grid.spacing, grid.margin, grid.height];
         if lengths.iter().any(|length| !length.is_finite()) || grid.spacing < 0.0 || grid.margin < 0.0 {
@@ -39,14 +42,15 @@ impl GridPoints {
             let found = format!("a grid with spacing {spacing} m, margin {margin} m and height {height} m");
             return Err(Error::scene(&grid.origin, format!("{found}, expected finite ones, the first two not below 0")));
         }
-        match &grid.area {
+        let planes = match &grid.area {
             GridArea::Rectangle { corner, edges } => rectangle(grid, *corner, *edges),
             GridArea::Mesh { mesh, transform } => self::mesh(scene, grid, *mesh, transform),
-        }
+        }?;
+        Ok(Self { facings: facings(grid, planes.normal)?, ..planes })
     }
 
-    /// The points as the grid's meters.
-    pub fn meters<'a>(&'a self, grid: &'a Grid) -> impl Iterator<Item = Meter> + 'a {
+    /// The points as meters of the grid's plane.
+    pub fn planes<'a>(&'a self, grid: &'a Grid) -> impl Iterator<Item = Meter> + 'a {
         self.known().map(|position| Meter {
             origin: grid.origin.clone(),
             position,
@@ -54,6 +58,18 @@ impl GridPoints {
             facing: grid.facing,
             measurand: grid.measurand,
         })
+    }
+
+    /// What the grid measures: its planes, or point by point its eyes, each of which is the plane before it.
+    pub fn meters<'a>(&'a self, grid: &'a Grid) -> impl Iterator<Item = Meter> + 'a {
+        let looking = |plane: Meter| self.facings.iter().map(move |facing| Meter { normal: *facing, facing: *facing, ..plane.clone() });
+        let planes = self.planes(grid).filter(|_| self.facings.is_empty());
+        planes.chain(self.planes(grid).flat_map(looking))
+    }
+
+    /// How many of [`Self::meters`] there are.
+    pub fn count(&self) -> usize {
+        self.known().count() * self.facings.len().max(1)
     }
 
     /// Lays a scene's grids out, beside its meters.
@@ -64,7 +80,7 @@ impl GridPoints {
         let mut count = scene.meters.len();
         let laid_out = |grid| {
             let points = Self::new(scene, grid)?;
-            count += points.known().count();
+            count += points.count();
             if count > MOST_POINTS {
                 return Err(Error::setting("grids", format!("more than {MOST_POINTS} points in all; take a wider spacing")));
             }
@@ -118,7 +134,7 @@ fn rectangle(grid: &Grid, corner: Vector, edges: [Vector; 2]) -> Result<GridPoin
         let [column, row] = [index % size[0], index / size[0]].map(|number| number as f64 + 0.5);
         Some(add(first, add(scaled(along[0], column * spacing[0]), scaled(along[1], row * spacing[1]))))
     };
-    Ok(GridPoints { size, spacing, positions: (0..size[0] * size[1]).map(place).collect(), normal, area })
+    Ok(GridPoints { size, spacing, positions: (0..size[0] * size[1]).map(place).collect(), normal, area, facings: Vec::new() })
 }
 
 fn mesh(scene: &Scene, grid: &Grid, mesh: MeshId, transform: &Transform) -> Result<GridPoints> {
@@ -131,7 +147,7 @@ fn mesh(scene: &Scene, grid: &Grid, mesh: MeshId, transform: &Transform) -> Resu
     if positions.iter().all(Option::is_none) {
         return Err(Error::scene(&grid.origin, "the margin leaves nothing of the grid's surface, or it is narrower than a cell"));
     }
-    Ok(GridPoints { size, spacing, positions, normal: outline.normal(), area: outline.area() })
+    Ok(GridPoints { size, spacing, positions, normal: outline.normal(), area: outline.area(), facings: Vec::new() })
 }
 
 /// Two unit vectors across a normal: the first as near to `wish` as can be.

@@ -1,6 +1,6 @@
 //! What meters and grids show.
 
-use super::{glare::Coverage, points::GridPoints, spectral::ColourReading, vector::Vector};
+use super::{eyes::EyeReadings, glare::Coverage, points::GridPoints, spectral::ColourReading, vector::Vector};
 use crate::scene::{Grid, Measurand, Meter, Origin};
 use std::sync::Arc;
 
@@ -139,7 +139,7 @@ pub struct Summary {
 }
 
 impl Summary {
-    fn new(readings: impl Iterator<Item = Reading> + Clone) -> Self {
+    pub(super) fn new(readings: impl Iterator<Item = Reading> + Clone) -> Self {
         let readings = readings.filter(Reading::is_known);
         let count = readings.clone().count();
         // No number where no point has a figure.
@@ -220,20 +220,24 @@ pub struct GridReading {
     pub area: f64,
     /// Position (world space, metres) and reading of each point, row by row; none where the area does not reach.
     pub points: Vec<Option<(Vector, Reading)>>,
+    /// What eyes at the points get, whose mean over the directions is then each point's reading; none of grids without eyes.
+    pub eyes: Option<EyeReadings>,
     /// The figures.
     pub summary: Summary,
     /// What the glare ratings leave out, by point in the order of those that were measured; empty of other quantities.
     pub coverage: Vec<Coverage>,
     /// Sources that the glare ratings take as small, and what tables would say, in the same order.
     pub small: Vec<SmallSources>,
-    /// The spectra that figures of colour are of, in the same order; empty of other quantities.
+    /// The spectra that figures of colour are of, in the same order, of eyes direction by direction; empty of other quantities.
     pub colours: Vec<Arc<ColourReading>>,
 }
 
 impl GridReading {
     pub(super) fn new(grid: &Grid, points: GridPoints, found: &[Found]) -> Self {
-        let readings = || found.iter().map(|found| found.reading);
-        let mut next = readings();
+        let own = || found.iter().map(|found| found.reading);
+        let eyes = (!points.facings.is_empty()).then(|| EyeReadings::new(points.facings, own()));
+        let readings: Vec<Reading> = eyes.as_ref().map_or_else(|| own().collect(), EyeReadings::means);
+        let mut next = readings.iter().copied();
         let placed = points.positions.iter().map(|position| position.and_then(|position| Some((position, next.next()?)))).collect();
         Self {
             origin: grid.origin.clone(),
@@ -243,7 +247,8 @@ impl GridReading {
             normal: points.normal,
             area: points.area,
             points: placed,
-            summary: Summary::new(readings()),
+            eyes,
+            summary: Summary::new(readings.iter().copied()),
             coverage: found.iter().filter_map(|found| found.rated.map(|(coverage, _)| coverage)).collect(),
             small: found.iter().filter_map(|found| found.rated.map(|(_, small)| small)).collect(),
             colours: found.iter().filter_map(|found| found.colour.clone()).collect(),
@@ -253,7 +258,7 @@ impl GridReading {
     /// A grid that shows other values than what it measures, one for each point that there is.
     pub fn of_values(grid: &Grid, points: GridPoints, values: &[f64]) -> Self {
         let found: Vec<Found> = values.iter().map(|value| Found::from(Reading { value: *value, standard_error: 0.0 })).collect();
-        Self::new(grid, points, &found)
+        Self::new(grid, GridPoints { facings: Vec::new(), ..points }, &found)
     }
 
     /// The figures by CIE 117 alone, as UGR tables have them; none where no source counts as small, or one is a point.

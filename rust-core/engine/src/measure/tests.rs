@@ -114,6 +114,7 @@ fn areas_without_a_side_are_errors_that_name_the_grid() {
 fn figures_are_those_of_the_points() {
     let reading = |value| Reading { value, standard_error: 3.0 }.into();
     let points = GridPoints {
+        facings: Vec::new(),
         size: [3, 1],
         spacing: [1.0; 2],
         positions: vec![Some([0.0; 3]), None, Some([2.0, 0.0, 0.0])],

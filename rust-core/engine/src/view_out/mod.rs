@@ -38,8 +38,6 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Metres from a grid's surface to eyes, where nothing says so: those of somebody who sits.
-pub const EYE_HEIGHT_M: f64 = 1.2;
 /// Degrees between rays: of least and of most.
 const STEPS_DEG: [f64; 2] = [0.1, 5.0];
 /// Azimuths whose rays are followed together.

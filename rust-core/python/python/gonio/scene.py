@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 import os
 from array import array
 from collections.abc import Mapping, Sequence
@@ -257,12 +258,15 @@ class Scene(_gonio.Scene):
         margin: float = 0.0,
         height: float = 0.0,
         facing: Sequence[float] = (0.0, 1.0, 0.0),
+        eyes: int | Sequence[Sequence[float]] | None = None,
         quantity: str = "illuminance",
         name: str = "grid",
     ) -> int:
         """Adds a calculation grid over a parallelogram (`corner` and two `edges`, metres) or over mesh number `mesh` placed by `transform`, shown
         or not; gives its number. spacing: metres from point to point, 0 as EN 12464-1 has it; margin: metres left out along the edges; height:
-        metres above the area; the rest as a meter's.
+        metres above the area (1.2 for eyes of somebody who sits, 1.6 of somebody who stands); eyes: where eyes at the points look, so many ways
+        across the area's normal, even around and the first along `facing`, or these directions, for illuminance, melanopic-edi and figures of
+        colour; the rest as a meter's.
         """
         area: dict[str, object]
         if edges is not None and mesh is None:
@@ -272,8 +276,18 @@ class Scene(_gonio.Scene):
         else:
             raise ValueError("a grid wants either edges or a mesh")
         sizes = {"spacing": spacing, "margin": margin, "height": height}
-        faced = {"facing": numbers("facing", facing, 3), "measurand": measurand(quantity)}
+        faced = {"facing": numbers("facing", facing, 3), "eyes": _eyes(eyes), "measurand": measurand(quantity)}
         return self.put_grid({"origin": name, "area": area, **sizes, **faced})
+
+
+def _eyes(eyes: int | Sequence[Sequence[float]] | None) -> dict[str, object] | None:
+    """Where eyes look, as descriptions have it."""
+    if eyes is None:
+        return None
+    try:
+        return {"Around": operator.index(eyes)}  # type: ignore[arg-type]
+    except TypeError:
+        return {"Towards": [numbers("eyes", facing, 3) for facing in eyes]}  # type: ignore[union-attr]
 
 
 def _numbers(matrix: Matrix | None) -> list[float]:

@@ -1,7 +1,7 @@
 //! The spectrum that a meter gets, and what it says.
 
 use crate::{measure::Reading, scene::Measurand};
-use gonio_spectrum::{Figures, Mixture, figures};
+use gonio_spectrum::{Figures, Mixture, figures, spectrum_drawing};
 use std::sync::Arc;
 
 /// What a plane gets by wavelength.
@@ -20,7 +20,7 @@ pub struct ColourReading {
 
 impl ColourReading {
     /// Of independent rounds, each by source its lx in each band.
-    pub(super) fn of_rounds(mixture: &Arc<Mixture>, rounds: &[Vec<Vec<f64>>]) -> Self {
+    pub(crate) fn of_rounds(mixture: &Arc<Mixture>, rounds: &[Vec<Vec<f64>>]) -> Self {
         let powers: Vec<Vec<f64>> = rounds.iter().map(|factors| mixture.power(factors)).collect();
         let at = |number: usize| Reading::of_parts(powers.iter().map(|round| round[number]));
         let spectrum: Vec<Reading> = (0..mixture.wavelengths_nm().len()).map(at).collect();
@@ -87,9 +87,22 @@ impl ColourReading {
 
     /// Melanopic equivalent daylight illuminance on the plane, lx (CIE S 026).
     pub fn melanopic_edi(&self) -> Option<Reading> {
+        self.melanopic_of(&self.illuminance)
+    }
+
+    /// The same of so many lx of light of this spectrum, which were measured apart.
+    pub(crate) fn melanopic_of(&self, light: &Reading) -> Option<Reading> {
         let ratio = self.figure(|figures| Some(figures.alpha_opic[4].der))?;
-        let [of_light, of_ratio] = [ratio.value * self.illuminance.standard_error, self.illuminance.value * ratio.standard_error];
-        Some(Reading { value: ratio.value * self.illuminance.value, standard_error: of_light.hypot(of_ratio) })
+        let [of_light, of_ratio] = [ratio.value * light.standard_error, light.value * ratio.standard_error];
+        Some(Reading { value: ratio.value * light.value, standard_error: of_light.hypot(of_ratio) })
+    }
+
+    /// The spectrum beside TM-30's colour vector graphic (SVG), under a name; none where there is no light or it is not known.
+    pub fn drawing(&self, name: &str) -> Option<String> {
+        let power: Vec<f64> = self.spectrum.iter().map(|reading| reading.value).collect();
+        let mut spectrum = self.mixture.spectrum(&power)?;
+        name.clone_into(&mut spectrum.name);
+        Some(spectrum_drawing(&spectrum, self.figures.as_ref()?))
     }
 
     /// The figures in a line of words.

@@ -6,6 +6,7 @@ pub(super) mod melanopic;
 mod sources;
 
 pub use colour_reading::ColourReading;
+pub(crate) use sources::{SourceScene, by_spectrum};
 
 use crate::{
     error::{Diagnostic, Error, Result},
@@ -16,7 +17,7 @@ use crate::{
 ///
 /// # Errors
 /// Lamps and surfaces that shine without a spectrum.
-fn check_spectra(scene: &Scene, of: &Origin, figures: &str, diagnostics: &mut Vec<Diagnostic>) -> Result<()> {
+pub(crate) fn check_spectra(scene: &Scene, of: &Origin, figures: &str, diagnostics: &mut Vec<Diagnostic>) -> Result<()> {
     let is_sky = |light: &&Light| matches!(light.shape, LightShape::Dome { .. } | LightShape::Distant { .. });
     if let Some(lamp) = by_colour_alone(scene).find(|light| !is_sky(light)) {
         let problem =

@@ -9,17 +9,17 @@ use gonio_spectrum::{Spectrum, named};
 use std::sync::Arc;
 
 /// Light of one spectrum alone, with wavelengths.
-pub(super) struct SourceScene {
+pub(crate) struct SourceScene {
     /// What of the scene shines with it.
-    pub(super) scene: Scene,
-    pub(super) spectrum: Spectrum,
+    pub(crate) scene: Scene,
+    pub(crate) spectrum: Spectrum,
 }
 
 /// The scene by its spectra; a scene without light has daylight alone.
 ///
 /// # Errors
 /// A lamp's spectrum that cannot be used.
-pub(super) fn by_spectrum(scene: &Scene) -> Result<Vec<SourceScene>> {
+pub(crate) fn by_spectrum(scene: &Scene) -> Result<Vec<SourceScene>> {
     let mut known: Vec<&Arc<LampSpectrum>> = Vec::new();
     let of_lights = scene.lights.iter().filter(|light| shines(light)).filter_map(Light::lamp_spectrum);
     let of_surfaces = scene.materials.iter().filter(|material| material.shines()).filter_map(|material| material.spectrum.as_ref());
