@@ -189,6 +189,15 @@ def test_colour_temperature_of_lamps_without_a_spectrum():
         gonio.measure(made, samples=256)
 
 
+@pytest.mark.xfail(strict=True, reason="figures that a colour does not tell stand beside its CCT")
+def test_beside_the_colour_temperature_of_a_colour_stands_no_colour_rendering():
+    made = gonio.Scene()
+    made.add_light("sphere", (1000.0, 780.0, 530.0), radius=0.1, transform=at(0, 0, 3), name="warm lamp")
+    made.add_meter((0, 0, 0), quantity="cct")
+    colour = gonio.measure(made, samples=256).meters[0].colour
+    assert [colour[name] for name in ("ra", "rf", "rg", "melanopic_der", "melanopic_edi_lx")] == [None] * 5
+
+
 def test_what_is_not_white_has_no_colour_temperature():
     """No figure, and why, in place of a number that means nothing; nor where no light comes."""
     green = ([380, 500, 520, 540, 560, 580, 780], [0, 0, 1, 1, 0, 0, 0])

@@ -122,6 +122,21 @@ def test_films_are_airys_at_every_angle(thickness, degrees):
     np.testing.assert_allclose(found, airy(nm, thickness, (1.0, 1.33, n - 1j * k), degrees), rtol=1e-4)
 
 
+@pytest.mark.xfail(strict=True, reason="a film's thickness counts in wavelengths of the body that light comes from")
+def test_films_are_airys_from_inside_glass():
+    """What glass reflects inwards; what goes out is lost on a black board."""
+    thickness = 180.0
+    made = gonio.Scene()
+    film = {"thin_film_weight": 1.0, "thin_film_ior": 1.33, "thin_film_thickness": thickness}
+    glass = made.add_material(transmission_weight=1.0, specular_roughness=0.0, specular_ior=1.5, **film)
+    made.add_instance(made.add_mesh(SQUARE, CORNERS), [glass])
+    made.add_instance(made.add_mesh(50 * SQUARE + np.float32([0, 0, 1]), CORNERS), [made.add_material(base_color=0.0, specular_weight=0.0)])
+    made.add_camera(gonio.look_at((0, 0, -2), (0, 0, 0), up=(1, 0, 0)), fov=0.01)
+    made.add_light("dome", spectrum="E")
+    nm, found = by_band(made, band=20.0, samples=256)
+    np.testing.assert_allclose(found, airy(nm, thickness, (1.5, 1.33, 1.0), 0.0), atol=0.003)
+
+
 # Johnson and Christy 1972: nm, n, k.
 GOLD = np.array(
     [
