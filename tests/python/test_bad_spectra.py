@@ -134,7 +134,6 @@ def test_numbers_that_are_none_are_named():
         gonio.Scene().add_light("dome", spectrum="missing.csv")
 
 
-@pytest.mark.xfail(strict=True, reason="what `gonio spectrum` notes is not told of a scene's lamps")
 def test_what_is_missing_of_a_lamp_is_told_with_it():
     nm = [at for at in NM if 450 <= at <= 650]
     _, told = picture(spectrum=(nm, [1] * len(nm)))

@@ -189,7 +189,6 @@ def test_colour_temperature_of_lamps_without_a_spectrum():
         gonio.measure(made, samples=256)
 
 
-@pytest.mark.xfail(strict=True, reason="figures that a colour does not tell stand beside its CCT")
 def test_beside_the_colour_temperature_of_a_colour_stands_no_colour_rendering():
     made = gonio.Scene()
     made.add_light("sphere", (1000.0, 780.0, 530.0), radius=0.1, transform=at(0, 0, 3), name="warm lamp")

@@ -122,7 +122,6 @@ def test_films_are_airys_at_every_angle(thickness, degrees):
     np.testing.assert_allclose(found, airy(nm, thickness, (1.0, 1.33, n - 1j * k), degrees), rtol=1e-4)
 
 
-@pytest.mark.xfail(strict=True, reason="a film's thickness counts in wavelengths of the body that light comes from")
 def test_films_are_airys_from_inside_glass():
     """What glass reflects inwards; what goes out is lost on a black board."""
     thickness = 180.0

@@ -25,8 +25,10 @@ pub(super) static SENSITIVITY: [f32; 6 * NODES] = floats(include_bytes!("tables/
 pub(crate) struct Film<L: Lanes> {
     /// Share of the surface that it covers.
     pub(crate) weight: F<L>,
-    /// Index.
+    /// Index, relative to what it is seen from.
     ior: F<L>,
+    /// Index of that.
+    near: F<L>,
     /// Thickness, nanometres.
     thickness: F<L>,
     /// Wavelengths in nanometres, where light has any.
@@ -149,21 +151,21 @@ fn conductor<L: Lanes>(c: F<L>, near: F<L>, n: F<L>, k: F<L>) -> [F<L>; 6] {
 }
 
 impl<L: Lanes> Film<L> {
-    /// A film of this index and thickness in nanometres. From inside a body of index `near` its index counts relative to the body; the
-    /// thickness stays, as in Cycles.
+    /// A film of this index and thickness in nanometres. From inside a body of index `near` its index counts relative to the body. Waves are as long as
+    /// they are in the film where light has wavelengths; else they are as long as in the body, as in Cycles.
     #[inline(always)]
     pub(crate) fn new([weight, ior, thickness]: [F<L>; 3], near: F<L>, wavelengths: Wavelengths<'_, L>) -> Self {
         // Films of a few atoms have no wave optics: they go over into nothing.
         let t = thickness.saturate();
         let ior = ior.lanes().f(1.0).lerp(ior.max(1e-5) / near, t * t * (3.0 - t * 2.0));
-        Self { weight: weight.saturate().keep_if(thickness.gt(THINNEST)), ior, thickness, nanometres: wavelengths.nanometres() }
+        Self { weight: weight.saturate().keep_if(thickness.gt(THINNEST)), ior, near, thickness, nanometres: wavelengths.nanometres() }
     }
     /// Sensitivities of all passages for the film's inner cosine.
     #[inline(always)]
     fn passages(&self, l: L, cos: F<L>) -> [Complex<L>; ORDERS] {
         let difference = self.ior * self.thickness * cos * 2.0;
         if let Some(nanometres) = self.nanometres {
-            return [turned(difference, nanometres); ORDERS];
+            return [turned(difference * self.near, nanometres); ORDERS];
         }
         let mut passages = [[Spectrum::zero(l); 2]; ORDERS];
         for (order, passage) in passages.iter_mut().enumerate() {

@@ -7,6 +7,8 @@ use std::borrow::Cow;
 
 /// More elements than that no such file has; each takes memory several times its text.
 const MOST_NODES: u32 = 1 << 20;
+/// Longer tags, in bytes, no such file has; reading their attributes takes time by the square of their number.
+const LONGEST_TAG: usize = 1 << 16;
 
 /// The text of a file: UTF-16 with its mark, else what [`decode`] takes.
 ///
@@ -27,10 +29,22 @@ pub(crate) fn text_of(bytes: &[u8]) -> Result<Cow<'_, str>> {
 /// The tree of a text.
 ///
 /// # Errors
-/// What is no XML, or has a document type.
+/// What is no XML, or has a document type or a tag without end.
 pub(crate) fn document(text: &str) -> Result<Document<'_>> {
+    if let Some(place) = long_tag(text) {
+        let line = text[..place].matches('\n').count() as u64 + 1;
+        return Err(FormatError::line(line, format!("an XML tag of more than {LONGEST_TAG} bytes was found")));
+    }
     let options = ParsingOptions { allow_dtd: false, nodes_limit: MOST_NODES, ..ParsingOptions::default() };
     Document::parse_with_options(text, options).map_err(|error| FormatError::line(error.pos().row.into(), format!("not XML: {error}")))
+}
+
+/// Where a tag begins that is longer than any should be; comments and other text may be.
+fn long_tag(text: &str) -> Option<usize> {
+    let tags = text.match_indices('<').map(|(place, _)| (place, &text[place + 1..]));
+    let mut tags = tags.filter(|(_, rest)| !rest.starts_with('!') && rest.len() > LONGEST_TAG);
+    let found = tags.find(|(_, rest)| !rest.as_bytes()[..LONGEST_TAG].contains(&b'>'));
+    found.map(|(place, _)| place)
 }
 
 /// Children of a name.

@@ -72,6 +72,8 @@ impl LampSpectra {
         }
         match Spectrum::new(&lamp.name, &lamp.wavelengths_nm, &lamp.power) {
             Ok(spectrum) => {
+                let told = |note: &String| Diagnostic::warning(origin, format!("of its spectrum: {note}"));
+                diagnostics.extend(spectrum.notes.iter().map(told));
                 self.spectra.push(Lamp::new(lamp, &spectrum));
                 self.spectra.len() as u32
             }

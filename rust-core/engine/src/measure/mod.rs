@@ -38,7 +38,7 @@ pub use reaching::Reaching;
 pub use reading::{GridReading, MeterReading, Reading, SensorGrid, SmallSources, Summary};
 pub use room::Room;
 pub use spectral::ColourReading;
-pub(crate) use spectral::{SourceScene, by_spectrum, check_spectra};
+pub(crate) use spectral::{SourceScene, by_spectrum, check_spectra, is_by_colours};
 pub use straight::{StraightLight, straight_light};
 pub use watch::{MOST_BOUNCES, Watch};
 

@@ -14,7 +14,7 @@ use crate::{
     compile::{BandedScene, compile},
     error::{Diagnostic, Error, Result},
     film::Image,
-    measure::Watch,
+    measure::{Watch, is_by_colours},
     render::{Progress, Render},
     scene::{Aov, Integrator, Origin, Scene, Settings},
 };
@@ -75,6 +75,7 @@ pub fn spectral_picture(
     let compiled = compile(&scene, watch.previous, watch.cancel)?;
     let mut diagnostics = compiled.diagnostics.clone();
     diagnostics.extend((!left_out.is_empty()).then(|| without_wavelengths(&left_out)));
+    diagnostics.extend(is_by_colours(&scene).then(by_colours));
     let mut banded = BandedScene::new(compiled, bands);
     for layer in &mut layers {
         let Aov::LightGroup(number) = layer.aov else { continue };
@@ -112,6 +113,12 @@ fn rendered(
         first.get_or_insert((image, exposure));
     }
     first.ok_or_else(|| Error::Internal("no band was rendered".to_owned()))
+}
+
+fn by_colours() -> Diagnostic {
+    let message = "lamps or surfaces shine without a spectrum and count as daylight D65 of their colour: Ra, Rf, Rg and melanopic light of this picture are not \
+        those of the lamps";
+    Diagnostic::warning(&Origin::new("lights"), message)
 }
 
 fn without_wavelengths(passes: &[String]) -> Diagnostic {

@@ -7,6 +7,7 @@
 use super::{
     by_colour_alone, check_spectra,
     colour_reading::ColourReading,
+    is_by_colours,
     sources::{SourceScene, by_spectrum},
 };
 use crate::{
@@ -74,7 +75,9 @@ pub(in super::super) fn colours(
     }
     let spectra = without_absent(sources.into_iter().map(|source| source.spectrum).collect(), &mut values);
     let mixture = Arc::new(Mixture::new(bands, &spectra));
-    let readings: Vec<Arc<ColourReading>> = values.iter().map(|rounds| Arc::new(ColourReading::of_rounds(&mixture, rounds))).collect();
+    let by_colours = is_by_colours(scene);
+    let reading = |rounds: &Vec<_>| Arc::new(ColourReading::of_rounds(&mixture, rounds).told_by_colours(by_colours));
+    let readings: Vec<Arc<ColourReading>> = values.iter().map(reading).collect();
     let readings = of_probe.into_iter().map(|place| readings[place].clone()).collect();
     let first = sweep.first.ok_or_else(|| Error::Internal("no band of wavelengths was measured".to_owned()))?;
     Ok(Found { readings, first })

@@ -18,8 +18,7 @@ use crate::{
 /// # Errors
 /// Lamps and surfaces that shine without a spectrum.
 pub(crate) fn check_spectra(scene: &Scene, of: &Origin, figures: &str, diagnostics: &mut Vec<Diagnostic>) -> Result<()> {
-    let is_sky = |light: &&Light| matches!(light.shape, LightShape::Dome { .. } | LightShape::Distant { .. });
-    if let Some(lamp) = by_colour_alone(scene).find(|light| !is_sky(light)) {
+    if let Some(lamp) = lamps_by_colour_alone(scene).next() {
         let problem =
             format!("{figures} want its spectrum, which its colour does not tell: give it gonio:spectrum, a file or a name such as LED-B3");
         return Err(Error::scene(&lamp.origin, problem));
@@ -37,6 +36,16 @@ pub(crate) fn check_spectra(scene: &Scene, of: &Origin, figures: &str, diagnosti
         diagnostics.push(Diagnostic::warning(of, message));
     }
     Ok(())
+}
+
+/// Whether lamps or surfaces shine of which the colour alone is known: figures of colour rendering and melanopic light are not.
+pub(crate) fn is_by_colours(scene: &Scene) -> bool {
+    lamps_by_colour_alone(scene).next().is_some() || surfaces_without_spectra(scene).next().is_some()
+}
+
+/// The same of lamps, sun and sky left aside.
+fn lamps_by_colour_alone(scene: &Scene) -> impl Iterator<Item = &Light> {
+    by_colour_alone(scene).filter(|light| !matches!(light.shape, LightShape::Dome { .. } | LightShape::Distant { .. }))
 }
 
 /// Lights that shine, and of which the colour alone is known.
