@@ -48,6 +48,29 @@ fn colours_become_the_same_spectra_on_lanes() {
     }
 }
 
+/// The greatest number of a coefficient's spectrum, over rotations.
+#[inline(always)]
+fn greatest<L: Lanes>(l: L, table: &WavelengthTable, colour: [f32; 3]) -> f32 {
+    let at = |rotation| Wavelengths::new(Some(table), l.u(rotation)).coefficient(Rgb::splat(l, colour)).max_component();
+    (0..table.rotations).map(|rotation| at(rotation).to_array()[0]).fold(0.0, f32::max)
+}
+
+#[test]
+fn coefficients_stay_below_twice_their_colour() {
+    // Media that vary are tracked by that bound.
+    let table = table();
+    for execution in Execution::all() {
+        let mut most = 0.0_f32;
+        for colour in colours() {
+            let component = colour.into_iter().fold(0.0, f32::max);
+            let greatest = dispatch!(execution, l => greatest(l, &table, colour));
+            assert!(greatest <= 2.0 * component, "{}: {colour:?} comes to {greatest}", execution.name());
+            most = most.max(greatest / component.max(f32::MIN_POSITIVE));
+        }
+        assert!(most > 1.5, "{}: saturated colours are above their components, by {most}", execution.name());
+    }
+}
+
 /// What even light of 1 and a spectrum of components show at a rotation.
 #[inline(always)]
 fn seen<L: Lanes>(l: L, table: &WavelengthTable, rotation: u32) -> [f32; 3] {

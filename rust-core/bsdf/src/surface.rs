@@ -123,13 +123,22 @@ impl Surface {
         if !self.is_solid() {
             return Spectrum::zero(l);
         }
+        let colour = values.reflectance(l, p::TRANSMISSION_COLOR, at).saturate().max(LEAST_LEFT);
+        colour.ln() * -self.tints(l, values, at)
+    }
+    /// How often a metre of the inside takes of light what leaves it the transmission colour: one over the transmission depth, 0 without one.
+    #[inline(always)]
+    pub fn tints<L: Lanes>(&self, l: L, values: &ParameterValues, at: usize) -> F<L> {
+        if !self.is_solid() {
+            return l.f(0.0);
+        }
         let depth = values.get(l, p::TRANSMISSION_DEPTH, at);
-        let colour = values.reflectance(l, p::TRANSMISSION_COLOR, at).saturate().max(1e-6);
-        let rate = (-depth.max(1e-9).recip()).keep_if(depth.gt(0.0));
-        colour.ln() * rate
+        depth.max(1e-9).recip().keep_if(depth.gt(0.0))
     }
 }
 
+/// What is left of light at least of the colour that solids make of it.
+const LEAST_LEFT: f32 = 1e-6;
 /// Roughness below this may make a delta lobe, however it is stretched.
 const SMOOTH: f32 = 5e-3;
 

@@ -79,13 +79,15 @@ pub struct Surroundings {
     pub media: [u32; 2],
     /// Absorption a metre of the solid about it, R, G, B.
     pub absorption: [f32; 3],
+    /// How often a metre that makes its colour of white: one over the depth at which it has it; 0 where no solid absorbs.
+    pub tints: f32,
     /// Squared index of refraction: what paths carry is radiance over it.
     pub squared_index: f32,
 }
 
 impl Surroundings {
     /// Air, which takes nothing away.
-    pub const OPEN: Self = Self { media: [0; 2], absorption: [0.0; 3], squared_index: 1.0 };
+    pub const OPEN: Self = Self { media: [0; 2], absorption: [0.0; 3], tints: 0.0, squared_index: 1.0 };
 }
 
 /// A ray for each lane.

@@ -61,7 +61,7 @@ pub use tables::light_groups::{GroupPasses, LightGroups, UNSEEN};
 pub use tables::links::Links;
 pub use tables::material::{MaterialTable, Mix, Shading, SurfaceMaterial};
 pub use tables::matte_names::{MatteNames, NameRun};
-pub use tables::media::{Medium, MediumTable};
+pub use tables::media::{Coefficients, Medium, MediumTable};
 pub use tables::motion_vectors::{MotionCameras, NeighbourFrames, NeighbourMaps};
 pub use tables::openings::Openings;
 pub use tables::photons::{Bright, OFF_PLANE, Photon, Photons};

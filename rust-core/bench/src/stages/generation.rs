@@ -11,7 +11,7 @@ use gonio::compile::View;
 use gonio::error::Result;
 use gonio::scene::Settings;
 use gonio::transport::{Paths, TileArea, generate};
-use gonio_simd::{Execution, dispatch};
+use gonio_simd::{Execution, WavelengthColumn, dispatch};
 use std::sync::atomic::AtomicBool;
 
 struct Generation {
@@ -36,7 +36,7 @@ impl Kernel for Generation {
     fn run(&mut self, execution: Execution) -> Result<()> {
         let Self { view, sampler, paths } = self;
         let area = TileArea { min: [0; 2], max: [TILE as u32; 2] };
-        dispatch!(execution, l => generate(l, &view.camera, &view.placement, sampler, area, &Runs::whole(0), &[], paths));
+        dispatch!(execution, l => generate(l, &view.camera, &view.placement, sampler, area, &Runs::whole(0), &[], WavelengthColumn::default(), paths));
         Ok(())
     }
     fn outcome(&self) -> Outcome {

@@ -7,7 +7,6 @@ use crate::{
     colour::luminance_of_pixel,
     error::{Error, Result},
     scene::{Light, OTHER_LIGHTS, Scene},
-    transport::MediumTable,
 };
 use gonio_spectrum::Bands;
 use std::sync::Arc;
@@ -20,8 +19,6 @@ const BENT: usize = 31;
 pub(crate) struct BandedScene {
     scene: Arc<CompiledScene>,
     bands: &'static Bands,
-    /// Its media, by colour.
-    media: MediumTable,
     /// By lamp, its spectrum in each band relative to D65's.
     lamps: Vec<Vec<f32>>,
     /// Of sun and sky, by set of spectra what red, green and blue are in each band, relative to D65's.
@@ -42,9 +39,8 @@ impl BandedScene {
     }
 
     fn with_lamps(scene: CompiledScene, bands: &'static Bands, lamps: Vec<Vec<f32>>) -> Self {
-        let media = scene.tables.materials.media.clone();
         let skies = scene.spectra.of_colours.by_band(bands);
-        Self { scene: Arc::new(scene), bands, media, lamps, skies }
+        Self { scene: Arc::new(scene), bands, lamps, skies }
     }
 
     /// The scene as it is in a band, until the next call.
@@ -57,8 +53,7 @@ impl BandedScene {
         let count = if scene.tables.materials.surfaces.iter().any(|surface| surface.surface.lobes.disperses) { BENT } else { 1 };
         let mut table = scene.spectra.table_of_band((self.bands, band), &self.lamps, &scene.metals, count);
         table.colour_spectra = column(&column_of_band(&self.skies, band, count));
-        scene.tables.wavelengths = Some(Arc::new(table));
-        scene.tables.materials.media = self.media.seen(|colour| [self.bands.of_colour(band, colour); 3]);
+        scene.tables.set_wavelengths(Some(Arc::new(table)));
         Ok(&self.scene)
     }
     /// The bands.

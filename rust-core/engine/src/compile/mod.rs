@@ -121,7 +121,7 @@ fn laid_out(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicBool
     let (of_light, kept_lights) = (mem::take(&mut lights.of_light), mem::take(&mut lights.kept));
     let mut tables = tables(scene, bvh, &mut looks, &mut shapes, lights);
     diagnostics.extend(light_groups::own_media(scene, &mut tables.materials));
-    tables.wavelengths = looks.spectra.table(scene, &looks.metals);
+    tables.set_wavelengths(looks.spectra.table(scene, &looks.metals));
     lamps_in_media::find(scene, &mut tables, &of_light, &mut diagnostics);
     if scene.settings.integrator == Integrator::Light {
         diagnostics.extend(unfollowed(scene, &tables));

@@ -95,6 +95,11 @@ impl<'a, L: Lanes> Wavelengths<'a, L> {
     pub fn new(table: Option<&'a WavelengthTable>, rotation: U<L>) -> Self {
         Self { table, rotation }
     }
+    /// Whether there are none.
+    #[inline(always)]
+    pub fn is_colour(self) -> bool {
+        self.table.is_none()
+    }
 
     /// Door for light: what a surface does to it, a share for each wavelength (pbrt's `RGBAlbedoSpectrum`).
     #[inline(always)]
@@ -145,6 +150,17 @@ impl<'a, L: Lanes> Wavelengths<'a, L> {
                         Spectrum { r, g, b }
                     },
                 )
+            },
+        )
+    }
+    /// What a column has for some rows, a quad for each rotation of each row; none where light is computed as colour.
+    #[inline(always)]
+    pub fn of_rows(self, quads: &Column, row: U<L>) -> Option<Spectrum<L>> {
+        self.table.map(
+            #[inline(always)]
+            |table| {
+                let [r, g, b, _] = self.rotation.lanes().gather_quads(quads, (row * table.rotations + self.rotation) * WORDS);
+                Spectrum { r, g, b }
             },
         )
     }

@@ -1,7 +1,7 @@
 //! Lookups in fields along rays: densities, heats, and cells whose density has a bound.
 
 use crate::tables::fields::{FieldTable, GLOW, LOG2_BRICK, LOG2_COARSE, ROW, WORDS};
-use crate::tables::media::{MediumTable, coefficient};
+use crate::tables::media::Coefficients;
 use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
 
 /// A register of rays in the coordinates of their fields.
@@ -196,48 +196,72 @@ impl<L: Lanes> FieldRays<L> {
         value(l, table, &place, self.bricks[2]).keep_if(place.holds)
     }
 
-    /// Factors on scattering and extinction after so many metres, where the density is this.
+    /// Where their fields have colours that vary.
     #[inline(always)]
-    pub(crate) fn taken(&self, l: L, table: &FieldTable, distance: F<L>, density: F<L>) -> [Spectrum<L>; 2] {
-        let even = Spectrum::constant(density);
-        let Some([extinction, scattering, _]) = &self.colours else { return [even; 2] };
-        let vary = extinction[0].ne(0);
-        if !vary.any() {
-            return [even; 2];
+    pub(crate) fn coloured(&self, l: L) -> M<L> {
+        match &self.colours {
+            Some([extinction, ..]) => extinction[0].ne(0),
+            None => l.m(false),
         }
-        let place = self.place(l, table, distance);
-        let [scattering, extinction] = [scattering, extinction].map(
+    }
+
+    /// Scattering and extinction a metre after so many metres, where the density is this; `even` are those of their rows of the table at a density of 1.
+    #[inline(always)]
+    pub(crate) fn taken(
+        &self,
+        l: L,
+        media: Coefficients<'_, L>,
+        (row, even): (U<L>, [Spectrum<L>; 2]),
+        distance: F<L>,
+        density: F<L>,
+    ) -> [Spectrum<L>; 2] {
+        let [scattering, extinction] = even.map(
             #[inline(always)]
-            |first| vary.select(coloured(l, table, &place, first).keep_if(place.holds), even),
+            |part| part * density,
         );
-        [scattering, extinction]
+        let vary = self.coloured(l);
+        let (Some([taken, scattered, _]), true) = (&self.colours, vary.any()) else { return [scattering, extinction] };
+        let table = &media.table.fields;
+        let place = self.place(l, table, distance);
+        let factors = [scattered, taken].map(
+            #[inline(always)]
+            |first| {
+                colour(l, table, &place, first).map(
+                    #[inline(always)]
+                    |part| part.keep_if(place.holds),
+                )
+            },
+        );
+        let varied = media.varied(l, row, factors, even);
+        [vary.select(varied[0], scattering), vary.select(varied[1], extinction)]
     }
 
     /// Factor on the emission after so many metres; 0 outside.
     #[inline(always)]
-    pub(crate) fn glow(&self, l: L, media: &MediumTable, distance: F<L>) -> Spectrum<L> {
+    pub(crate) fn glow(&self, l: L, media: Coefficients<'_, L>, distance: F<L>) -> Spectrum<L> {
+        let fields = &media.table.fields;
         let holds = match self.since {
-            Some(_) => self.place(l, &media.fields, distance).holds,
+            Some(_) => self.place(l, fields, distance).holds,
             None => self.holds(self.at(distance)),
         };
         let inside = Spectrum::constant(l.f(1.0).keep_if(holds));
         let is_hot = self.bricks[3].ne(0);
         let inside = match &self.colours {
             Some([_, _, sent]) if sent[0].ne(0).any() => {
-                inside * sent[0].ne(0).select(coloured(l, &media.fields, &self.place(l, &media.fields, distance), sent), Spectrum::one(l))
+                let factor = media.sent(colour(l, fields, &self.place(l, fields, distance), sent));
+                inside * sent[0].ne(0).select(factor, Spectrum::one(l))
             }
             _ => inside,
         };
         if !is_hot.any() {
             return inside;
         }
-        let heat = value(l, &media.fields, &self.place(l, &media.fields, distance), self.bricks[3]);
+        let heat = value(l, fields, &self.place(l, fields, distance), self.bricks[3]);
         let last = (GLOW - 1) as f32;
         let at = (heat / self.hottest.max(f32::MIN_POSITIVE) * last).clamp(0.0, last);
         let below = at.floor().min(last - 1.0);
-        let row = self.coarse[3] * GLOW as u32 + below.to_i32();
-        let (low, high) = (media.glow(l, row), media.glow(l, row + 1));
-        inside * is_hot.select(low.lerp(high, at - below), Spectrum::one(l))
+        let factor = media.glow(l, self.coarse[3] * GLOW as u32 + below.to_i32(), at - below);
+        inside * is_hot.select(factor, Spectrum::one(l))
     }
 }
 
@@ -297,10 +321,10 @@ fn leaving<L: Lanes>(cell: U<L>, edge: U<L>, [low, high]: [F<L>; 2], [origin, in
     (face - origin) * inverse
 }
 
-/// A colour at a place, by the first bricks of its components.
+/// A colour R, G, B at a place, by the first bricks of its components.
 #[inline(always)]
-fn coloured<L: Lanes>(l: L, table: &FieldTable, place: &Place<L>, [r, g, b, _]: &[U<L>; 4]) -> Spectrum<L> {
-    coefficient(l, [value(l, table, place, *r), value(l, table, place, *g), value(l, table, place, *b)])
+fn colour<L: Lanes>(l: L, table: &FieldTable, place: &Place<L>, [r, g, b, _]: &[U<L>; 4]) -> [F<L>; 3] {
+    [value(l, table, place, *r), value(l, table, place, *g), value(l, table, place, *b)]
 }
 
 /// The trilinear value at a place of the lattice whose bricks begin at one.

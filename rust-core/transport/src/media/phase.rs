@@ -3,7 +3,7 @@
 //! Where all of a scene are Henyey and Greenstein's, these are evaluated and inverted as they are; else all are rows of a table.
 
 use crate::media::set::MediaSet;
-use crate::tables::media::MediumTable;
+use crate::tables::media::{Coefficients, MediumTable};
 use gonio_bsdf::phase::{henyey_greenstein, sample_henyey_greenstein};
 use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
 
@@ -37,27 +37,27 @@ pub(crate) struct PhaseSample<L: Lanes> {
 impl<L: Lanes> PhaseMix<L> {
     /// That of the even media which rays are in.
     #[inline(always)]
-    pub(crate) fn of(l: L, media: MediaSet<L>, table: &MediumTable) -> Self {
+    pub(crate) fn of(l: L, set: MediaSet<L>, media: Coefficients<'_, L>) -> Self {
         let mut even = [l.f(1.0); 4];
-        if table.varies() {
-            for (even, row) in even.iter_mut().zip(media.rows()) {
+        if media.table.varies() {
+            for (even, row) in even.iter_mut().zip(set.rows()) {
                 if let Some(row) = row {
-                    *even = even.keep_if(table.field(l, row).eq(0));
+                    *even = even.keep_if(media.table.field(l, row).eq(0));
                 }
             }
         }
-        Self::at(l, media, table, even)
+        Self::at(l, set, media, even)
     }
 
     /// That of a place where the media have these densities, by their order.
     #[inline(always)]
-    pub(crate) fn at(l: L, media: MediaSet<L>, table: &MediumTable, densities: [F<L>; 4]) -> Self {
+    pub(crate) fn at(l: L, set: MediaSet<L>, media: Coefficients<'_, L>, densities: [F<L>; 4]) -> Self {
         let mut scattering = Spectrum::zero(l);
         let mut parts = [None; 4];
-        let varied = table.phases.is_varied();
-        for ((part, row), density) in parts.iter_mut().zip(media.rows()).zip(densities) {
+        let (table, varied) = (media.table, media.table.phases.is_varied());
+        for ((part, row), density) in parts.iter_mut().zip(set.rows()).zip(densities) {
             if let Some(row) = row {
-                let own = table.scattering(l, row) * density;
+                let own = media.scattering(l, row) * density;
                 scattering += own;
                 let phase = if varied { table.phase(l, row) } else { l.u(0) };
                 *part = Some(Part { scattering: own, anisotropy: table.anisotropy(l, row), phase });

@@ -3,7 +3,7 @@
 //! Media that fill meshes, or all of space, overlap: their coefficients add up, and each is left by its name. Solids, which bend rays at their surfaces,
 //! take each other's place.
 
-use crate::tables::media::MediumTable;
+use crate::tables::media::{Coefficients, MediumTable};
 use gonio_camera::Surroundings;
 use gonio_simd::{Column, F, Lanes, M, Rgb, Spectrum, SpectrumColumns, U, Wavelengths};
 
@@ -45,11 +45,23 @@ impl<L: Lanes> MediaSet<L> {
         Self { names: [l.u(media.everywhere), l.u(0)], ..Self::open(l) }
     }
 
-    /// What a place is in, as [`crate::surroundings_at`] tells; in every lane.
+    /// What a place is in, as [`crate::surroundings_at`] tells, as colour; in every lane.
     #[inline(always)]
     pub fn at_place(l: L, place: &Surroundings) -> Self {
         let [r, g, b] = place.absorption.map(|x| l.f(x));
         Self { names: place.media.map(|names| l.u(names)), solid: Wavelengths::rgb(l).coefficient(Rgb::new(r, g, b)) }
+    }
+
+    /// The same for light of some wavelengths: what the solid makes of white is a colour, and `tints` is how often a metre it does.
+    #[inline(always)]
+    pub(crate) fn seen_at(self, wavelengths: Wavelengths<'_, L>, tints: F<L>) -> Self {
+        let tinted = tints.gt(0.0);
+        if wavelengths.is_colour() || !tinted.any() {
+            return self;
+        }
+        let left = (self.solid * -tints.max(f32::MIN_POSITIVE).recip()).exp().to_rgb();
+        let left = wavelengths.reflectance(left).max(f32::MIN_POSITIVE);
+        Self { solid: tinted.select(left.ln() * -tints, self.solid), ..self }
     }
 
     /// The names, and what the solid absorbs a metre.
@@ -142,7 +154,7 @@ impl<L: Lanes> MediaSet<L> {
 
     /// Extinction a metre of all even ones together.
     #[inline(always)]
-    pub fn extinction(self, media: &MediumTable) -> Spectrum<L> {
+    pub fn extinction(self, media: Coefficients<'_, L>) -> Spectrum<L> {
         self.of_names(media) + self.solid
     }
 
@@ -157,10 +169,10 @@ impl<L: Lanes> MediaSet<L> {
     }
 
     #[inline(always)]
-    fn of_names(self, media: &MediumTable) -> Spectrum<L> {
+    fn of_names(self, media: Coefficients<'_, L>) -> Spectrum<L> {
         let l = self.names[0].lanes();
         let mut sum = Spectrum::zero(l);
-        if media.is_empty() {
+        if media.table.is_empty() {
             return sum;
         }
         for row in self.rows().into_iter().flatten() {
@@ -171,14 +183,14 @@ impl<L: Lanes> MediaSet<L> {
 
     /// Optical depth of so many metres of even media. No solid that only absorbs reaches infinitely far: where one seems to, its mesh is open.
     #[inline(always)]
-    pub fn optical_depth(self, media: &MediumTable, distance: F<L>) -> Spectrum<L> {
+    pub fn optical_depth(self, media: Coefficients<'_, L>, distance: F<L>) -> Spectrum<L> {
         let solid = self.solid.keep_if(distance.lt(FAR));
         (self.of_names(media) + solid) * distance.min(FAR)
     }
 
     /// What even media leave of light after so many metres (Beer and Lambert).
     #[inline(always)]
-    pub fn transmittance(self, media: &MediumTable, distance: F<L>) -> Spectrum<L> {
+    pub fn transmittance(self, media: Coefficients<'_, L>, distance: F<L>) -> Spectrum<L> {
         (self.optical_depth(media, distance) * distance.lanes().f(-1.0)).exp()
     }
 }

@@ -3,9 +3,9 @@
 
 use super::set::{MediaColumns, MediaSet};
 use super::track::{Track, seed};
-use crate::tables::media::MediumTable;
+use crate::tables::media::{Coefficients, MediumTable};
 use gonio_accel::TransparentHit;
-use gonio_simd::{Column, Lanes, One, PADDING, Spectrum, SpectrumColumns, Vec3};
+use gonio_simd::{Column, Lanes, One, PADDING, Spectrum, SpectrumColumns, Vec3, WavelengthColumn};
 
 /// Where a ray passes the surface of what a medium fills.
 #[derive(Clone, Copy, Debug)]
@@ -33,6 +33,7 @@ pub(crate) struct TrackedRays<'a> {
     pub(crate) time: &'a [f32],
     /// What tells samples apart that send the same ray.
     pub(crate) salt: &'a [u32],
+    pub(crate) wavelengths: WavelengthColumn<'a>,
 }
 
 /// By shadow ray; used where anything absorbs.
@@ -64,12 +65,19 @@ impl OpticalDepth {
         self.crossings.extend(crossings.map(|(hit, side)| Crossing { ray: hit.ray, t: hit.t, row, entering: *side > 0.0 }));
     }
 
-    /// Adds up the depths of the first `count` rays, which start in `media` and end at these distances.
+    /// Adds up the depths of the first `count` rays, which start in `media` and end at these distances, for light of their wavelengths.
     #[inline(always)]
-    pub fn add_up<L: Lanes>(&mut self, l: L, table: &MediumTable, media: &MediaColumns, ends: &[f32], count: usize) {
+    pub fn add_up<L: Lanes>(
+        &mut self,
+        l: L,
+        (table, wavelengths): (&MediumTable, WavelengthColumn<'_>),
+        media: &MediaColumns,
+        ends: &[f32],
+        count: usize,
+    ) {
         for at in (0..count).step_by(L::COUNT) {
             let here = media.load(l, at);
-            self.depth.store(here.optical_depth(table, l.load(ends, at)), at);
+            self.depth.store(here.optical_depth(table.at(wavelengths.load(l, at)), l.load(ends, at)), at);
             if table.varies() {
                 let bits = (here.varies(table) & l.first(count - at)).bits();
                 let rays = (at..at + L::COUNT).filter(|ray| bits >> (ray - at) & 1 == 1);
@@ -85,7 +93,8 @@ impl OpticalDepth {
         }
         for of_ray in self.crossings.chunk_by(|a, b| a.ray == b.ray) {
             let ray = of_ray[0].ray as usize;
-            self.depth.store(along(table, media.load(One, ray), of_ray, ends[ray], &mut self.stretches), ray);
+            let of_light = table.at(wavelengths.gather(One, One.u(ray as u32)));
+            self.depth.store(along(of_light, media.load(One, ray), of_ray, ends[ray], &mut self.stretches), ray);
         }
     }
 
@@ -119,7 +128,8 @@ impl OpticalDepth {
             );
             let way = [l.load(&ends[0], 0), l.load(&ends[1], 0)];
             let time = || if rays.time.is_empty() { l.f(0.5) } else { l.gather(rays.time, number) };
-            let Some(track) = Track::of(l, table, media.load(l, 0), [origin, direction], time) else { continue };
+            let of_light = table.at(rays.wavelengths.gather(l, number));
+            let Some(track) = Track::of(l, of_light, media.load(l, 0), [origin, direction], time) else { continue };
             left.store(
                 track.transmittance(way, l.first(some.len()), seed(origin, direction, way[0], l.gather_integers(rays.salt, number))),
                 0,
@@ -138,19 +148,25 @@ impl OpticalDepth {
 }
 
 /// Optical depth in even media of a ray that starts in some; notes its stretches through those that vary.
-fn along(table: &MediumTable, mut media: MediaSet<One>, crossings: &[Crossing], end: f32, stretches: &mut Vec<Stretch>) -> Spectrum<One> {
+fn along(
+    of_light: Coefficients<'_, One>,
+    mut media: MediaSet<One>,
+    crossings: &[Crossing],
+    end: f32,
+    stretches: &mut Vec<Stretch>,
+) -> Spectrum<One> {
     let (mut depth, mut start) = (Spectrum::zero(One), 0.0);
     let mut note = |media: MediaSet<One>, ends: [f32; 2]| {
-        if table.varies() && media.varies(table).any() {
+        if of_light.table.varies() && media.varies(of_light.table).any() {
             stretches.push(Stretch { ray: crossings[0].ray, media, ends });
         }
     };
     for Crossing { t, row, entering, .. } in crossings {
         note(media, [start, *t]);
-        depth += media.extinction(table) * One.f(t - start);
+        depth += media.extinction(of_light) * One.f(t - start);
         media = if *entering { media.entered(*row, One.m(true)) } else { media.left(*row, One.m(true)) };
         start = *t;
     }
     note(media, [start, end]);
-    depth + media.optical_depth(table, One.f(end - start))
+    depth + media.optical_depth(of_light, One.f(end - start))
 }

@@ -5,7 +5,7 @@
 
 use super::field::{Cell, FieldRays};
 use super::set::MediaSet;
-use crate::tables::media::MediumTable;
+use crate::tables::media::Coefficients;
 use gonio_camera::sampler::to_unit;
 use gonio_nodes::hash::hash2;
 use gonio_simd::{F, Lanes, M, Spectrum, U, Vec3};
@@ -21,17 +21,18 @@ const SMALL_WEIGHT: f32 = 0.1;
 #[derive(Clone, Copy, Debug)]
 struct Part<L: Lanes> {
     rays: FieldRays<L>,
+    row: U<L>,
     extinction: Spectrum<L>,
     scattering: Spectrum<L>,
     emission: Spectrum<L>,
-    /// The greatest component of the extinction.
+    /// The greatest component that the extinction has where density is 1.
     most: F<L>,
 }
 
 /// The media along a register of rays that vary.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Track<'a, L: Lanes> {
-    table: &'a MediumTable,
+    media: Coefficients<'a, L>,
     parts: [Option<Part<L>>; 4],
     /// Rays in any.
     pub(crate) varies: M<L>,
@@ -129,19 +130,20 @@ pub(crate) fn seed<L: Lanes>(origin: Vec3<L>, direction: Vec3<L>, from: F<L>, sa
 impl<L: Lanes> Part<L> {
     /// That of some rows; `None` where none of them varies.
     #[inline(always)]
-    fn new(l: L, table: &MediumTable, row: U<L>, ray: [Vec3<L>; 2], time: F<L>) -> Option<Self> {
-        let field = table.field(l, row);
+    fn new(l: L, media: Coefficients<'_, L>, row: U<L>, ray: [Vec3<L>; 2], time: F<L>) -> Option<Self> {
+        let field = media.table.field(l, row);
         let here = field.ne(0);
         if !here.any() {
             return None;
         }
-        let extinction = table.field_extinction(l, row);
+        let (rays, extinction) = (FieldRays::new(l, &media.table.fields, field, ray, time), media.field_extinction(l, row));
         Some(Self {
-            rays: FieldRays::new(l, &table.fields, field, ray, time),
+            rays,
+            row,
             extinction,
-            scattering: table.scattering(l, row).keep_if(here),
-            emission: table.emission(l, row).keep_if(here),
-            most: extinction.max_component(),
+            scattering: media.scattering(l, row).keep_if(here),
+            emission: media.emission(l, row).keep_if(here),
+            most: media.bound(l, row, extinction, rays.coloured(l)),
         })
     }
 }
@@ -149,23 +151,23 @@ impl<L: Lanes> Part<L> {
 impl<'a, L: Lanes> Track<'a, L> {
     /// Those of rays that are in some media, from their places on, at times of the shutter; `None` where nothing varies.
     #[inline(always)]
-    pub(crate) fn of(l: L, table: &'a MediumTable, media: MediaSet<L>, ray: [Vec3<L>; 2], time: impl FnOnce() -> F<L>) -> Option<Self> {
-        if table.varies() && media.varies(table).any() { Some(Self::new(l, table, &media, &(ray, time()))) } else { None }
+    pub(crate) fn of(l: L, media: Coefficients<'a, L>, set: MediaSet<L>, ray: [Vec3<L>; 2], time: impl FnOnce() -> F<L>) -> Option<Self> {
+        if media.table.varies() && set.varies(media.table).any() { Some(Self::new(l, &media, &set, &(ray, time()))) } else { None }
     }
 
     #[inline(never)]
-    fn new(l: L, table: &'a MediumTable, media: &MediaSet<L>, (ray, time): &([Vec3<L>; 2], F<L>)) -> Self {
+    fn new(l: L, media: &Coefficients<'a, L>, set: &MediaSet<L>, (ray, time): &([Vec3<L>; 2], F<L>)) -> Self {
         l.vectorize(
             #[inline(always)]
             || {
-                let parts = media.rows().map(
+                let parts = set.rows().map(
                     #[inline(always)]
                     |row| match row {
-                        Some(row) => Part::new(l, table, row, *ray, *time),
+                        Some(row) => Part::new(l, *media, row, *ray, *time),
                         None => None,
                     },
                 );
-                Self { table, parts, varies: media.varies(table) }
+                Self { media: *media, parts, varies: set.varies(media.table) }
             },
         )
     }
@@ -176,7 +178,7 @@ impl<'a, L: Lanes> Track<'a, L> {
         let l = distance.lanes();
         let (mut majorant, mut exit) = (l.f(0.0), l.f(f32::INFINITY));
         for part in self.parts.iter().flatten() {
-            let Cell { most, exit: end } = part.rays.cell(l, &self.table.fields, distance);
+            let Cell { most, exit: end } = part.rays.cell(l, &self.media.table.fields, distance);
             majorant = most.mul_add(part.most, majorant);
             exit = part.rays.any().select(exit.min(end), exit);
         }
@@ -190,7 +192,7 @@ impl<'a, L: Lanes> Track<'a, L> {
         self.parts.map(
             #[inline(always)]
             |part| match part {
-                Some(part) => part.rays.density(l, &self.table.fields, distance),
+                Some(part) => part.rays.density(l, &self.media.table.fields, distance),
                 None => l.f(0.0),
             },
         )
@@ -203,9 +205,10 @@ impl<'a, L: Lanes> Track<'a, L> {
         let mut sums = [Spectrum::zero(l); 2];
         for (part, density) in self.parts.iter().zip(densities) {
             let Some(part) = part else { continue };
-            let [scattering, extinction] = part.rays.taken(l, &self.table.fields, distance, density);
-            sums[0] += part.scattering * scattering;
-            sums[1] += part.extinction * extinction;
+            let even = (part.row, [part.scattering, part.extinction]);
+            let [scattering, extinction] = part.rays.taken(l, self.media, even, distance, density);
+            sums[0] += scattering;
+            sums[1] += extinction;
         }
         sums
     }
@@ -217,7 +220,7 @@ impl<'a, L: Lanes> Track<'a, L> {
         self.parts.map(
             #[inline(always)]
             |part| match part {
-                Some(part) if part.emission.is_lit().any() => part.emission * part.rays.glow(l, self.table, distance),
+                Some(part) if part.emission.is_lit().any() => part.emission * part.rays.glow(l, self.media, distance),
                 _ => Spectrum::zero(l),
             },
         )

@@ -18,6 +18,7 @@ use crate::stage::walk::subsurface::{WalkContext, walk};
 use crate::state::light_paths::{Arrivals, Escapes};
 use crate::state::paths::Paths;
 use crate::state::sample::SampleContext;
+use crate::state::wavelengths::SlotWavelengths;
 use crate::state::workspace::Workspace;
 use crate::statistics::Stage;
 use crate::tables::Tables;
@@ -99,7 +100,7 @@ impl LightTracer<'_> {
                 wavelengths.as_deref(),
             );
         }
-        self.find_media(ws);
+        self.find_media(wavelengths.as_deref(), ws);
         ws.paths.set_masks();
         let mut flux = BatchFlux { emitted: self.under_way(&first, ws), ..BatchFlux::default() };
         ws.statistics.spent(Stage::Generate, time);
@@ -119,7 +120,7 @@ impl LightTracer<'_> {
     }
 
     /// What bodies hold the places where the paths start.
-    fn find_media(&self, ws: &mut Workspace) {
+    fn find_media(&self, wavelengths: Option<&SlotWavelengths>, ws: &mut Workspace) {
         let bodies = match self.emission {
             Emission::Lights(_) => &self.tables.bodies.around_lights,
             Emission::Rays(_) => &self.tables.bodies.absorbing,
@@ -128,9 +129,11 @@ impl LightTracer<'_> {
             return;
         }
         ws.paths.set_times(&ws.times);
+        let slots = wavelengths.map(|_| (0..ws.paths.count).map(|path| ws.paths.slot(path)).collect::<Vec<u32>>());
+        let wavelengths = wavelengths.zip(slots.as_deref());
         let room = ws.queues.light_paths.media.get_or_insert_default();
         let Paths { count, rays, media, .. } = &mut ws.paths;
-        start_media(self.tables, self.transport.execution, bodies, rays, *count, media, room);
+        start_media(self.tables, self.transport.execution, bodies, (rays, wavelengths), *count, media, room);
     }
 
     fn follow_bounce(
@@ -176,13 +179,13 @@ impl LightTracer<'_> {
 
     /// Traces the rays to the camera, and keeps what nothing blocked.
     fn connect(&self, splats: &mut Vec<Splat>, ws: &mut Workspace) {
-        let rays = &mut ws.queues.light_paths.connections.rays;
-        ws.statistics.shadow_rays += rays.count as u64;
-        if rays.count > 0 {
-            ws.shadow_trace.wavelengths = None;
-            occlude(self.tables, self.transport, false, rays, &mut ws.shadow_trace, &mut ws.chunk);
-            Splat::collect(rays, &ws.shadow_trace.blocked, splats);
-            rays.count = 0;
+        let connections = &mut ws.queues.light_paths.connections;
+        ws.statistics.shadow_rays += connections.rays.count as u64;
+        if connections.rays.count > 0 {
+            ws.shadow_trace.wavelengths.clone_from(&ws.wavelengths);
+            occlude(self.tables, self.transport, false, &mut connections.rays, &mut ws.shadow_trace, &mut ws.chunk);
+            Splat::collect(connections, &ws.shadow_trace, splats);
+            connections.rays.count = 0;
         }
     }
 

@@ -123,19 +123,20 @@ impl Tracer<'_> {
 
     /// Starts the paths of a batch, and lights its sensors; returns the depth of the paths.
     fn begin<I: Integrator>(&self, integrator: &I, batch: &Batch<'_>, ws: &mut Workspace) -> u32 {
-        let Batch { area, ref sampler, runs, .. } = *batch;
+        let Batch { area, ref sampler, runs, wavelengths } = *batch;
+        let column = wavelengths.map(SlotWavelengths::column).unwrap_or_default();
         let time = Instant::now();
         ws.times.draw(self.transport.execution, self.transport.shutter.as_deref(), sampler, runs, area.min[1]);
         let first = match self.start {
             Start::Camera(camera, placement) => {
                 let (times, paths) = (ws.times.by_slot(), &mut ws.paths);
-                dispatch!(self.transport.execution, l => generate(l, camera, placement, sampler, area, runs, times, paths));
+                dispatch!(self.transport.execution, l => generate(l, camera, placement, sampler, area, runs, times, column, paths));
                 0
             }
             Start::Sensors(sensors) => {
                 let queues = &mut ws.queues;
                 dispatch!(self.transport.execution, l => {
-                    start_sensors(l, sensors, sampler, area, runs, &mut queues.measure, &mut queues.next);
+                    start_sensors(l, sensors, sampler, area, (runs, column), &mut queues.measure, &mut queues.next);
                 });
                 self.begin_measuring(integrator, batch, ws)
             }

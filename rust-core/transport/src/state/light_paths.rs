@@ -1,7 +1,7 @@
 //! Light paths' own state: the flux that each started with, and what a bounce brings: flux that arrived, escaped or may reach the camera.
 
 use crate::state::columns::{Columns3, append3, columns3};
-use crate::state::queue::shadow_rays::ShadowRays;
+use crate::state::queue::shadow_rays::{SHADOW_ROOM, ShadowRays};
 use crate::state::start_room::StartRoom;
 use crate::state::textured_emission::EmissionRoom;
 use crate::words::{flag, ray_mask};
@@ -65,8 +65,10 @@ pub struct Escapes {
 /// Light that may reach the camera: rays from the vertices of light paths, and where in the picture their light goes.
 #[derive(Debug)]
 pub(crate) struct Connections {
-    /// Rays to the lens; slots are pixels of the window, row by row.
+    /// Rays to the lens.
     pub(crate) rays: ShadowRays,
+    /// By ray, the pixel of the window, row by row.
+    pub(crate) pixel: Column<u32>,
 }
 
 /// All of them.
@@ -116,7 +118,7 @@ impl Default for Escapes {
 
 impl Default for Connections {
     fn default() -> Self {
-        Self { rays: ShadowRays::with_mask(ray_mask::CAMERA) }
+        Self { rays: ShadowRays::with_mask(ray_mask::CAMERA), pixel: Column::new(SHADOW_ROOM) }
     }
 }
 

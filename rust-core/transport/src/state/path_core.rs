@@ -7,7 +7,7 @@ use crate::media::set::{MediaColumns, MediaSet};
 use crate::tables::Tables;
 use crate::words::flag;
 use gonio_camera::Surroundings;
-use gonio_simd::{Column, F, Lanes, One, Spectrum, U};
+use gonio_simd::{Column, F, Lanes, One, Spectrum, U, Wavelengths};
 
 /// One register of what paths carry.
 #[derive(Clone, Copy, Debug)]
@@ -32,34 +32,37 @@ pub(crate) struct PathCore<L: Lanes> {
 #[derive(Debug)]
 pub(crate) struct SurroundingsColumns {
     media: MediaColumns,
+    tints: Column,
     squared_index: Column,
 }
 
 impl SurroundingsColumns {
     pub(crate) fn new(all: &[Surroundings]) -> Self {
         let room = gonio_simd::padded(all.len()) + gonio_simd::PADDING;
-        let (mut media, mut squared_index) = (MediaColumns::new(room), Column::new(room));
+        let (mut media, mut tints, mut squared_index) = (MediaColumns::new(room), Column::new(room), Column::new(room));
         for (place, one) in all.iter().enumerate() {
             media.store(MediaSet::at_place(One, one), place);
+            tints[place] = one.tints;
             squared_index[place] = one.squared_index;
         }
-        Self { media, squared_index }
+        Self { media, tints, squared_index }
     }
 }
 
 impl<L: Lanes> PathCore<L> {
     /// That of paths which start at a camera.
     #[inline(always)]
-    pub(crate) fn of_camera(l: L, slot: U<L>, camera: &Surroundings) -> Self {
+    pub(crate) fn of_camera(l: L, wavelengths: Wavelengths<'_, L>, slot: U<L>, camera: &Surroundings) -> Self {
         let throughput = Spectrum::constant(l.f(camera.squared_index));
-        Self { throughput, media: MediaSet::at_place(l, camera), ..Self::new(l, slot, l.u(flag::CAMERA | flag::DELTA)) }
+        let media = MediaSet::at_place(l, camera).seen_at(wavelengths, l.f(camera.tints));
+        Self { throughput, media, ..Self::new(l, slot, l.u(flag::CAMERA | flag::DELTA)) }
     }
 
     /// That of paths which start at meters.
     #[inline(always)]
-    pub(crate) fn of_sensors(l: L, slot: U<L>, sensors: &SurroundingsColumns, sensor: U<L>) -> Self {
+    pub(crate) fn of_sensors(l: L, wavelengths: Wavelengths<'_, L>, slot: U<L>, (sensors, sensor): (&SurroundingsColumns, U<L>)) -> Self {
         let throughput = Spectrum::constant(l.gather(&sensors.squared_index, sensor));
-        let media = sensors.media.gather(l, sensor);
+        let media = sensors.media.gather(l, sensor).seen_at(wavelengths, l.gather(&sensors.tints, sensor));
         Self { throughput, media, ..Self::new(l, slot, l.u(flag::CAMERA | flag::DELTA)) }
     }
 

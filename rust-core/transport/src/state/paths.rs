@@ -10,11 +10,12 @@ use crate::state::path_core::PathCore;
 use crate::state::rays::{RayLanes, Rays};
 use crate::state::sample::SampleContext;
 use crate::state::times::SlotTimes;
+use crate::state::wavelengths::SlotWavelengths;
 use crate::tables::Tables;
 use crate::words::{flag, ray_mask};
 use gonio_camera::sampler::CAPACITY;
 use gonio_light::LightSampleContext;
-use gonio_simd::{Column, F, Lanes, M, Spectrum, SpectrumItems, U, Vec3, padded};
+use gonio_simd::{Column, F, Lanes, M, Spectrum, SpectrumItems, U, Vec3, Wavelengths, padded};
 
 /// Paths with a ray each.
 #[derive(Debug)]
@@ -196,15 +197,19 @@ impl Paths {
     pub(crate) fn transmittance<L: Lanes>(
         &self,
         l: L,
-        (tables, sample): (&Tables, Option<&SampleContext<'_>>),
+        (tables, wavelengths, sample): (&Tables, Option<&SlotWavelengths>, Option<&SampleContext<'_>>),
         path: U<L>,
         to: F<L>,
         chosen: M<L>,
     ) -> Spectrum<L> {
-        let (media, from) = (self.media.gather(l, path), self.rays.passed.distance(l, path));
-        let left = media.transmittance(&tables.materials.media, to - from);
+        let (set, from) = (self.media.gather(l, path), self.rays.passed.distance(l, path));
+        let media = tables.materials.media.at(match wavelengths {
+            Some(wavelengths) => wavelengths.at(l, self.track(l, path).slot),
+            None => Wavelengths::rgb(l),
+        });
+        let left = set.transmittance(media, to - from);
         let (origin, direction) = (gather3(l, &self.rays.origin, path), self.cone(l, path).direction);
-        let Some(track) = Track::of(l, &tables.materials.media, media, [origin, direction], || self.rays.times(l, path)) else {
+        let Some(track) = Track::of(l, media, set, [origin, direction], || self.rays.times(l, path)) else {
             return left;
         };
         // Light paths start anywhere: no two are alike.

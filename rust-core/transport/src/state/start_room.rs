@@ -7,7 +7,7 @@ use crate::state::rays::Rays;
 use crate::words::ray_mask;
 use gonio_accel::{Hits, TransparentHit};
 use gonio_camera::sampler::CAPACITY;
-use gonio_simd::{PADDING, SpectrumColumns, padded};
+use gonio_simd::{Column, PADDING, SpectrumColumns, padded};
 
 /// Surfaces of bodies that rays cross, and what absorbs behind them.
 #[derive(Debug)]
@@ -23,11 +23,16 @@ pub(crate) struct StartRoom {
     pub(crate) sides: Vec<f32>,
     /// By crossing, absorption a metre of the solid behind the surface, and its row where there is a solid, 0 where that does not scatter.
     pub(crate) absorption: SpectrumColumns,
+    /// By crossing, see [`gonio_camera::Surroundings::tints`].
+    pub(crate) tints: Vec<f32>,
     pub(crate) solid: Vec<Option<u32>>,
     /// By crossing, the row of what fills the body; 0 is nothing.
     pub(crate) filling: Vec<u32>,
+    /// The crossing behind which the innermost solid about a ray's start lies, of those that start in one.
+    pub(crate) innermost: Vec<usize>,
     /// Those of a chunk.
     pub(crate) chunk: SpectrumColumns,
+    pub(crate) chunk_tints: Column,
     /// Weights of a mix over a chunk.
     pub(crate) weights: MixWeights,
     pub(crate) columns: ChunkColumns,
@@ -44,9 +49,12 @@ impl Default for StartRoom {
             crossings: Vec::new(),
             sides: Vec::new(),
             absorption: SpectrumColumns::new(0),
+            tints: Vec::new(),
             solid: Vec::new(),
             filling: Vec::new(),
+            innermost: Vec::new(),
             chunk: SpectrumColumns::new(CHUNK),
+            chunk_tints: Column::new(CHUNK),
             weights: MixWeights::default(),
             columns: ChunkColumns::default(),
         }

@@ -28,6 +28,11 @@ impl SlotWavelengths {
         dispatch!(execution, l => draw(l, sampler, runs, table.rotations, &mut slots.rotations));
     }
 
+    /// By slot of paths.
+    pub(crate) fn column(&self) -> WavelengthColumn<'_> {
+        WavelengthColumn::new(Some(&self.table), &self.rotations)
+    }
+
     /// Those of some slots of any kind.
     #[inline(always)]
     pub(crate) fn at<L: Lanes>(&self, l: L, slot: U<L>) -> Wavelengths<'_, L> {
@@ -55,7 +60,7 @@ fn draw<L: Lanes>(l: L, sampler: &Sampler, runs: &Runs, count: u32, rotations: &
     }
 }
 
-/// The wavelengths of a chunk of hits.
+/// The wavelengths of a chunk of hits, or of rays that wait.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ChunkWavelengths {
     table: Option<Arc<WavelengthTable>>,
@@ -63,7 +68,7 @@ pub(crate) struct ChunkWavelengths {
 }
 
 impl ChunkWavelengths {
-    /// Fills them by the slots of the chunk's hits, one after the other.
+    /// Fills them by slots, one after the other.
     pub(crate) fn fill(&mut self, wavelengths: Option<&SlotWavelengths>, slots: impl Iterator<Item = u32>) {
         self.rotations.clear();
         let Some(wavelengths) = wavelengths else {
@@ -76,7 +81,7 @@ impl ChunkWavelengths {
         self.rotations.extend(slots.map(|slot| wavelengths.rotations[slot as usize % BATCH]));
         self.rotations.resize(self.rotations.len() + PADDING, 0);
     }
-    /// By hit of the chunk.
+    /// By hit or ray.
     pub(crate) fn column(&self) -> WavelengthColumn<'_> {
         WavelengthColumn::new(self.table.as_deref(), &self.rotations)
     }

@@ -139,16 +139,6 @@ impl FieldTable {
     pub fn moves(&self) -> bool {
         self.flows || self.moving.is_some()
     }
-    /// Replaces the colours of all glows.
-    pub(crate) fn see(&mut self, seen: impl Fn([f32; 3]) -> [f32; 3]) {
-        for glow in self.glow.chunks_exact_mut(ROW) {
-            let colour = seen([glow[0], glow[1], glow[2]]);
-            glow[..3].copy_from_slice(&colour);
-        }
-        // Their components are no wavelengths.
-        self.colours.iter_mut().for_each(|colours| colours.fill(0));
-        self.is_coloured = false;
-    }
     /// Bytes of it.
     pub fn memory(&self) -> usize {
         4 * (self.words.len() + self.bounds.len() + self.filled.len())

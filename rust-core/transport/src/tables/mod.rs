@@ -75,3 +75,11 @@ pub struct Tables {
     /// World position of the rebased origin, metres.
     pub origin: [f64; 3],
 }
+
+impl Tables {
+    /// Says what the wavelengths of paths mean from now on, where light has any; the media are told.
+    pub fn set_wavelengths(&mut self, table: Option<Arc<WavelengthTable>>) {
+        self.materials.media.set_wavelengths(table.as_deref());
+        self.wavelengths = table;
+    }
+}

@@ -12,6 +12,7 @@ use crate::state::light_paths::{Escapes, LightStarts};
 use crate::state::nearest::{MetLights, NearestHits};
 use crate::state::paths::{CarriedLanes, Paths, TrackLanes};
 use crate::state::sample::SampleContext;
+use crate::state::wavelengths::SlotWavelengths;
 use crate::tables::Tables;
 use crate::tables::transport::Transport;
 use crate::words::{code, flag};
@@ -49,7 +50,7 @@ pub(crate) fn escape<L: Lanes>(
         let alive = l.first(count - at);
         let path = l.load_integers(escaped, at);
         let TrackLanes { slot, flags, .. } = paths.track(l, path);
-        let flux = sample.to_film(slot, starts.carried(l, slot, leaving_scene(l, tables, paths, path, None)));
+        let flux = sample.to_film(slot, starts.carried(l, slot, leaving_scene(l, (tables, sample.wavelengths, None), paths, path)));
         let ray = [gather3(l, &paths.rays.origin, path), paths.cone(l, path).direction];
         escapes.append(ray, flux, flags >> flag::BOUNCE_SHIFT, alive);
     }
@@ -58,12 +59,17 @@ pub(crate) fn escape<L: Lanes>(
 
 /// Throughput of paths behind all that they can still come through: where media reach infinitely far, none is left.
 #[inline(always)]
-fn leaving_scene<L: Lanes>(l: L, tables: &Tables, paths: &Paths, path: U<L>, sample: Option<&SampleContext<'_>>) -> Spectrum<L> {
+fn leaving_scene<L: Lanes>(
+    l: L,
+    (tables, wavelengths, sample): (&Tables, Option<&SlotWavelengths>, Option<&SampleContext<'_>>),
+    paths: &Paths,
+    path: U<L>,
+) -> Spectrum<L> {
     let throughput = paths.carried(l, path).throughput;
     if tables.materials.media.is_empty() {
         return throughput;
     }
-    throughput * paths.transmittance(l, (tables, sample), path, l.f(f32::MAX), l.m(true))
+    throughput * paths.transmittance(l, (tables, wavelengths, sample), path, l.f(f32::MAX), l.m(true))
 }
 
 /// Adds the emission of light shapes that paths hit, weighted by MIS against next event estimation.
@@ -94,8 +100,11 @@ fn add_shapes<L: Lanes>(
             let factor = tables.lights.scattered_factor(l, light, (flags >> flag::LAST_SHIFT) & 3);
             weight = (flags & flag::CAMERA).ne(0).select(weight, weight * factor);
         }
-        let radiance =
-            if tables.any_absorbing { radiance * paths.transmittance(l, (tables, Some(sample)), path, t, alive) } else { radiance };
+        let radiance = if tables.any_absorbing {
+            radiance * paths.transmittance(l, (tables, sample.wavelengths, Some(sample)), path, t, alive)
+        } else {
+            radiance
+        };
         let value = transport.limits.clamped(radiance * carried.throughput * weight, flags >> flag::BOUNCE_SHIFT);
         let code = with_state(&transport.passes, code_of_found(flags, code::EMISSION), flags);
         let specular = is_specular_path(flags, slot);
@@ -128,7 +137,7 @@ fn add_environment<L: Lanes>(
         let path = l.load_integers(escaped, at);
         let (CarriedLanes { pdf, .. }, TrackLanes { slot, flags, .. }) = (paths.carried(l, path), paths.track(l, path));
         let camera = (flags & flag::CAMERA).ne(0);
-        let throughput = leaving_scene(l, tables, paths, path, Some(sample));
+        let throughput = leaving_scene(l, (tables, sample.wavelengths, Some(sample)), paths, path);
         let passed = throughput.mean() * (1.0 / transport.squared_index);
         // The pdf of camera rays is their share of the sample. What dims them covers what is behind by as much.
         let covered = if transport.environment_covers { pdf } else { pdf - passed };

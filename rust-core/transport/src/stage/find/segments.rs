@@ -67,7 +67,7 @@ impl<'a> Segments<'a> {
     /// Flux that one carries at a distance from its origin, R, G, B in the units of the emission.
     pub fn flux(&self, segment: usize, distance: f32) -> [f32; 3] {
         let path = One.u(segment as u32);
-        let left = self.paths.transmittance(One, (self.tables, None), path, One.f(distance), One.m(true));
+        let left = self.paths.transmittance(One, (self.tables, self.wavelengths, None), path, One.f(distance), One.m(true));
         let flux = self.starts.carried(One, self.paths.track(One, path).slot, self.paths.carried(One, path).throughput);
         at_slots(One, self.wavelengths, self.paths.track(One, path).slot).to_rgb(flux * left).into()
     }

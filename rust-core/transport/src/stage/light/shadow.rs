@@ -177,7 +177,9 @@ fn dim_chunk<L: Lanes>(
 /// Dims what shadow rays carry by what they go through.
 #[inline(always)]
 fn attenuate<L: Lanes>(l: L, tables: &Tables, shadows: &mut ShadowRays, trace: &mut ShadowTrace) {
-    trace.depth.add_up(l, &tables.materials.media, &shadows.media, &shadows.rays.t_max, shadows.count);
+    trace.of_rays.fill(trace.wavelengths.as_deref(), shadows.slot[..shadows.count].iter().copied());
+    let media = (&tables.materials.media, trace.of_rays.column());
+    trace.depth.add_up(l, media, &shadows.media, &shadows.rays.t_max, shadows.count);
     for at in (0..shadows.count).step_by(L::COUNT) {
         let left = trace.depth.transmittance(l, at);
         shadows.contribution.store(shadows.contribution.load(l, at) * left, at);

@@ -2,6 +2,7 @@
 
 use crate::state::sample::SampleContext;
 use crate::tables::Tables;
+use crate::tables::media::Coefficients;
 use crate::tables::transport::Transport;
 use gonio_camera::sampler::dimension;
 use gonio_simd::{F, Lanes, U};
@@ -14,7 +15,13 @@ pub(crate) struct MediumContext<'a> {
     pub(crate) sample: &'a SampleContext<'a>,
 }
 
-impl MediumContext<'_> {
+impl<'a> MediumContext<'a> {
+    /// What media do to light of the paths of some slots.
+    #[inline(always)]
+    pub(super) fn media<L: Lanes>(&self, l: L, slot: U<L>) -> Coefficients<'a, L> {
+        self.tables.materials.media.at(self.sample.wavelengths(l, slot))
+    }
+
     /// A pair of random numbers of some paths for a use within this bounce.
     #[inline(always)]
     pub(super) fn pair<L: Lanes>(&self, l: L, slot: U<L>, within: u32) -> [F<L>; 2] {

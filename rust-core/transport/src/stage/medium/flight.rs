@@ -101,7 +101,7 @@ pub(super) fn track<L: Lanes>(
     let factor =
         scattered.select(found.weight * left_where_flights_pass(way, distance), chosen.select(even.factor * found.weight, even.factor));
     let densities = track.densities(found.distance);
-    let phase = PhaseMix::at(l, way.core.media, &context.tables.materials.media, densities);
+    let phase = PhaseMix::at(l, way.core.media, context.media(l, way.core.slot), densities);
     way.phase = way.phase.or(phase, scattered);
     let [_, extinction] = track.coefficients(found.distance, densities);
     way.extinction = scattered.select(extinction, way.extinction);
@@ -126,7 +126,7 @@ fn lit<L: Lanes>(
     let l = way.pdf.lanes();
     let distance = (found.place.distance - way.from).max(0.0);
     let mut place = found.place.alone(distance, left_where_flights_pass(way, distance));
-    let phase = PhaseMix::at(l, way.core.media, &context.tables.materials.media, track.densities(found.place.distance));
+    let phase = PhaseMix::at(l, way.core.media, context.media(l, way.core.slot), track.densities(found.place.distance));
     let ended = even.scatters.and_not(found.scatters);
     let evenly = place.add(even.distance, even.factor * found.weight, to_unit(hash2(l, seed, l.u(LIT))), ended);
     Lit { distance: place.distance, factor: place.whole(), phase: phase.or(way.phase, evenly) }

@@ -49,8 +49,8 @@ fn pass_paths<L: Lanes>(
 ) {
     let media = &context.tables.materials.media;
     for at in (0..paths.count).step_by(L::COUNT) {
-        let Some(mut way) = Way::load(l, media, paths, &nearest.hits, at) else { continue };
-        let track = way.track(media, paths);
+        let Some(mut way) = Way::load(l, context, paths, &nearest.hits, at) else { continue };
+        let track = way.track(context, paths);
         let tracked = track.as_ref().map_or(l.m(false), |track| track.varies);
         if media.shines() {
             shine::add(context, &way, way.alive.and_not(tracked), deposits);
@@ -139,10 +139,9 @@ pub(crate) fn dim((tables, transport): (&Tables, &Transport), sample: &SampleCon
 
 #[inline(always)]
 fn dim_paths<L: Lanes>(l: L, context: &MediumContext<'_>, paths: &mut Paths, nearest: &NearestHits) {
-    let media = &context.tables.materials.media;
     for at in (0..paths.count).step_by(L::COUNT) {
-        let Some(way) = Way::load(l, media, paths, &nearest.hits, at) else { continue };
-        let Some(track) = way.track(media, paths) else { continue };
+        let Some(way) = Way::load(l, context, paths, &nearest.hits, at) else { continue };
+        let Some(track) = way.track(context, paths) else { continue };
         let seed = seed(way.origin, way.direction, way.from, context.sample.salt(l, way.core.slot));
         let left = track.transmittance([way.from, way.from + way.length], way.alive, seed);
         flight::multiply(paths, at, left);
@@ -165,10 +164,9 @@ pub(crate) fn pass_light(
 fn pass_light_paths<L: Lanes>(l: L, context: &MediumContext<'_>, paths: &mut Paths, nearest: &mut NearestHits, next: &mut Paths) {
     let NearestHits { hits, escaped, .. } = nearest;
     for at in (0..paths.count).step_by(L::COUNT) {
-        let media = &context.tables.materials.media;
-        let Some(mut way) = Way::load(l, media, paths, hits, at).filter(|way| way.scatters.any()) else { continue };
+        let Some(mut way) = Way::load(l, context, paths, hits, at).filter(|way| way.scatters.any()) else { continue };
         let mut flight = flight::draw(context, &way);
-        if let Some(track) = way.track(media, paths) {
+        if let Some(track) = way.track(context, paths) {
             (flight, _) = pass_varying(context, &mut way, &track, &flight);
         }
         let scattered = way.scatters & flight.scatters;

@@ -17,7 +17,7 @@ const THIN: f32 = 1e-3;
 #[inline(always)]
 pub(super) fn add<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>, chosen: M<L>, deposits: &mut Deposits) {
     let l = way.pdf.lanes();
-    let media = &context.tables.materials.media;
+    let media = context.media(l, way.core.slot);
     let rows = way.core.media.rows();
     let mut parts = [Spectrum::zero(l); 4];
     for (part, row) in parts.iter_mut().zip(rows) {
@@ -42,11 +42,11 @@ fn ends<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>, row: U<L>) -> M<L> 
 #[inline(always)]
 pub(super) fn sent<L: Lanes>(context: &MediumContext<'_>, way: &Way<L>, track: &Track<'_, L>, place: F<L>) -> [Spectrum<L>; 4] {
     let l = place.lanes();
-    let media = &context.tables.materials.media;
+    let media = context.media(l, way.core.slot);
     let mut parts = track.emission(place);
     for (part, row) in parts.iter_mut().zip(way.core.media.rows()) {
         let Some(row) = row else { continue };
-        *part += media.emission(l, row).keep_if(media.field(l, row).eq(0) & ends(context, way, row));
+        *part += media.emission(l, row).keep_if(media.table.field(l, row).eq(0) & ends(context, way, row));
     }
     let left = left_where_flights_pass(way, (place - way.from).max(0.0));
     parts.map(|part| part * left)

@@ -1,12 +1,12 @@
 //! A register of ways through media: from where rays start, or went straight on last, to what they hit.
 
+use super::context::MediumContext;
 use crate::media::phase::PhaseMix;
 use crate::media::set::FAR;
 use crate::media::track::Track;
 use crate::state::columns::load3;
 use crate::state::path_core::PathCore;
 use crate::state::paths::Paths;
-use crate::tables::media::MediumTable;
 use crate::tables::transport::Limits;
 use crate::words::flag;
 use gonio_accel::{Hits, NONE};
@@ -42,9 +42,9 @@ pub(super) struct Way<L: Lanes> {
 impl<L: Lanes> Way<L> {
     /// Those of a register of paths; `None` where all go through the open or through solids that do not scatter.
     #[inline(always)]
-    pub(super) fn load(l: L, table: &MediumTable, paths: &Paths, hits: &Hits, at: usize) -> Option<Self> {
-        let media = paths.media.load(l, at);
-        let present = l.first(paths.count - at) & media.is_filled();
+    pub(super) fn load(l: L, context: &MediumContext<'_>, paths: &Paths, hits: &Hits, at: usize) -> Option<Self> {
+        let set = paths.media.load(l, at);
+        let present = l.first(paths.count - at) & set.is_filled();
         if !present.any() {
             return None;
         }
@@ -54,8 +54,9 @@ impl<L: Lanes> Way<L> {
         let from = paths.rays.passed.distance(l, path);
         let met = l.load_integers_to_end(&hits.instance, at).ne(NONE);
         let end = met.select(l.load_to_end(&hits.t, at), l.f(FAR));
-        let phase = PhaseMix::of(l, media, table);
-        let core = PathCore { width: cone.width, media, unguided: paths.unguided(l, path), ..core };
+        let media = context.media(l, core.slot);
+        let phase = PhaseMix::of(l, set, media);
+        let core = PathCore { width: cone.width, media: set, unguided: paths.unguided(l, path), ..core };
         let lit = present & core.throughput.is_lit();
         let scatters_evenly = lit & phase.scattering.is_lit();
         Some(Self {
@@ -66,10 +67,10 @@ impl<L: Lanes> Way<L> {
             length: (end - from).clamp(0.0, FAR),
             core,
             pdf,
-            extinction: media.extinction(table),
+            extinction: set.extinction(media),
             phase,
             alive: present,
-            scatters: scatters_evenly | (lit & media.varies(table)),
+            scatters: scatters_evenly | (lit & set.varies(media.table)),
             scatters_evenly,
             met,
         })
@@ -77,9 +78,11 @@ impl<L: Lanes> Way<L> {
 
     /// The media along it that vary; the paths are those that it was loaded from.
     #[inline(always)]
-    pub(super) fn track<'a>(&self, table: &'a MediumTable, paths: &Paths) -> Option<Track<'a, L>> {
+    pub(super) fn track<'a>(&self, context: &MediumContext<'a>, paths: &Paths) -> Option<Track<'a, L>> {
         let l = self.pdf.lanes();
-        Track::of(l, table, self.core.media, [self.origin, self.direction], || paths.rays.times(l, l.iota() + self.at as u32))
+        Track::of(l, context.media(l, self.core.slot), self.core.media, [self.origin, self.direction], || {
+            paths.rays.times(l, l.iota() + self.at as u32)
+        })
     }
 
     /// What even media leave of light after so many metres of it.

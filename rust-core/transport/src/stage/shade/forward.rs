@@ -8,12 +8,14 @@ use crate::stage::shade::integrator::Integrator;
 use crate::stage::shade::scatter::{send_on, without_cut_outs};
 use crate::stage::shade::shading::{hero, normals, way_numbers};
 use crate::state::chunk::ChunkContext;
-use crate::state::light_paths::ArrivalLanes;
+use crate::state::light_paths::{ArrivalLanes, Connections};
 use crate::state::paths::Paths;
 use crate::state::queue::Queues;
 use crate::state::queue::shadow_rays::{ShadowLanes, ShadowRays};
+use crate::state::queue::shadow_trace::ShadowTrace;
 use crate::state::rays::RayLanes;
 use crate::state::vertex::Vertex;
+use crate::state::wavelengths::at_slots;
 use crate::tables::material::{SurfaceMaterial, parameter_values};
 use crate::tables::photons::Bright;
 use crate::words::{code, event, flag};
@@ -269,22 +271,24 @@ fn connect<'s, L: Lanes>(
     let bounces = straight.select(l.u(1 << flag::BOUNCE_SHIFT), l.u(2 << flag::BOUNCE_SHIFT));
     let code = code_of_found(bounces | event::DIFFUSE, 0);
     let ray = RayLanes { origin: to_lens.origin, direction: to_lens.direction, t_min: l.f(0.0), t_max: to_lens.t_max };
-    // The slot is the pixel's: light becomes colour here.
+    // Shares are colour from here on; what the ray carries is on its way.
     let wavelengths = chunk.sample.wavelengths(l, point.core.slot);
     let [diffuse, glossy] = shares;
     let shares = Some([wavelengths.as_colour(diffuse), wavelengths.as_colour(glossy)]);
-    queues.light_paths.connections.rays.append_time(time, lit, chunk.transport.shutter.is_some());
+    let connections = &mut queues.light_paths.connections;
+    connections.rays.append_time(time, lit, chunk.transport.shutter.is_some());
+    pixel.append(lit, &mut connections.pixel, connections.rays.count);
     let sent = ShadowLanes {
         ray,
-        contribution: wavelengths.as_colour(value),
-        slot: pixel,
+        contribution: value,
+        slot: point.core.slot,
         code,
         light,
         shares,
         receiver: None,
         along: point.along(chunk.tables, chunk.transport, to, None),
     };
-    queues.light_paths.connections.rays.append(&sent, lit);
+    connections.rays.append(&sent, lit);
 }
 
 /// Flux that an interface sends to its other side as the radiance that camera paths keep there, without the squared index.
@@ -340,13 +344,15 @@ pub struct Splat {
 }
 
 impl Splat {
-    /// The splats of the connections that nothing blocked.
-    pub(crate) fn collect(rays: &ShadowRays, blocked: &[u8], splats: &mut Vec<Self>) {
+    /// The splats of the connections that nothing blocked; light becomes colour here.
+    pub(crate) fn collect(Connections { rays, pixel }: &Connections, trace: &ShadowTrace, splats: &mut Vec<Self>) {
+        let (blocked, wavelengths) = (&trace.blocked, trace.wavelengths.as_deref());
         let three = |columns: &SpectrumColumns, at: usize| columns.load(One, at).to_rgb().into();
+        let seen = |at: usize| at_slots(One, wavelengths, One.u(rays.slot[at])).to_rgb(rays.contribution.load(One, at)).into();
         splats.extend((0..rays.count).filter(|at| blocked[*at] == 0).map(|at| Self {
-            pixel: rays.slot[at],
+            pixel: pixel[at],
             light: rays.light[at],
-            value: three(&rays.contribution, at),
+            value: seen(at),
             shares: [three(&rays.shares[0], at), three(&rays.shares[1], at)],
             direct: rays.code[at] < code::INDIRECT,
         }));

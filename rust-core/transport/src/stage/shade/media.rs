@@ -22,13 +22,14 @@ pub(crate) fn absorb<L: Lanes>(
     point.core.media = chunk.paths.media.gather(l, point.path);
     // What is before the surface that it went straight through last is behind it.
     let distance = l.gather(&chunk.hits.t, point.path) - chunk.paths.rays.passed.distance(l, point.path);
-    let mut left = point.core.media.transmittance(&chunk.tables.materials.media, distance);
+    let media = chunk.tables.materials.media.at(chunk.sample.wavelengths(l, point.core.slot));
+    let mut left = point.core.media.transmittance(media, distance);
     if !chunk.tables.geometry.set_catcher.is_empty() {
         left = catcher::arrives_alone(point.core.flags, point.core.slot).select(Spectrum::one(l), left);
     }
     point.core.throughput = point.core.throughput * left;
     let beyond = point.core.media;
-    if !chunk.tables.materials.media.is_empty() {
+    if !media.table.is_empty() {
         before_boundary(chunk, point, distance);
     }
     let surface = &material.surface;

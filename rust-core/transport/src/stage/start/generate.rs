@@ -10,7 +10,7 @@ use gonio_camera::sampler::Runs;
 use gonio_camera::sampler::morton_even;
 use gonio_camera::sampler::{Sampler, dimension};
 use gonio_camera::{CameraRay, CameraTable};
-use gonio_simd::{Lanes, PADDING};
+use gonio_simd::{Lanes, PADDING, WavelengthColumn, Wavelengths};
 
 /// The rectangle of pixels that one batch covers.
 #[derive(Clone, Copy, Debug)]
@@ -34,10 +34,10 @@ pub fn generate<L: Lanes>(
     area: TileArea,
     runs: &Runs,
     times: &[f32],
+    wavelengths: WavelengthColumn<'_>,
     paths: &mut Paths,
 ) {
     paths.clear();
-    let begun = PathCore::of_camera(l, l.u(0), &camera.surroundings);
     for [slot, first_pixel, sample] in runs.registers(L::COUNT) {
         let pixel = l.iota() + first_pixel;
         let (x, y) = (morton_even(pixel), morton_even(pixel >> 1));
@@ -59,7 +59,8 @@ pub fn generate<L: Lanes>(
         };
         let raster = [(x + area.min[0]).to_float() + 0.5 + u, (y + area.min[1]).to_float() + 0.5 + v];
         let ray = if times.is_empty() { camera.ray(l, raster, lens) } else { camera.ray_at(l, raster, lens, l.load(times, slot as usize)) };
-        paths.append(&started(&ray, PathCore { slot: l.iota() + slot, ..begun }), inside & ray.mapped);
+        let core = PathCore::of_camera(l, wavelengths.load(l, slot as usize), l.iota() + slot, &camera.surroundings);
+        paths.append(&started(&ray, core), inside & ray.mapped);
     }
     paths.set_masks();
 }
@@ -68,7 +69,6 @@ pub fn generate<L: Lanes>(
 #[inline(always)]
 pub(crate) fn generate_at<L: Lanes>(l: L, camera: &CameraTable, places: [&[f32]; 2], slots: &[u32], paths: &mut Paths) {
     paths.clear();
-    let begun = PathCore::of_camera(l, l.u(0), &camera.surroundings);
     let (mut x, mut y, mut slot) = ([0.0; PADDING], [0.0; PADDING], [0; PADDING]);
     for first in (0..slots.len()).step_by(L::COUNT) {
         let end = (first + L::COUNT).min(slots.len());
@@ -76,7 +76,8 @@ pub(crate) fn generate_at<L: Lanes>(l: L, camera: &CameraTable, places: [&[f32];
         y[..end - first].copy_from_slice(&places[1][first..end]);
         slot[..end - first].copy_from_slice(&slots[first..end]);
         let ray = camera.ray(l, [l.load(&x, 0), l.load(&y, 0)], [l.f(0.5); 2]);
-        paths.append(&started(&ray, PathCore { slot: l.load_integers(&slot, 0), ..begun }), l.first(end - first) & ray.mapped);
+        let core = PathCore::of_camera(l, Wavelengths::rgb(l), l.load_integers(&slot, 0), &camera.surroundings);
+        paths.append(&started(&ray, core), l.first(end - first) & ray.mapped);
     }
     paths.set_masks();
 }

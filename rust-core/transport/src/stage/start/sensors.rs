@@ -12,7 +12,7 @@ use crate::state::rays::RayLanes;
 use gonio_camera::Surroundings;
 use gonio_camera::sampler::{Runs, TILE, morton_even};
 use gonio_camera::sampler::{Sampler, dimension};
-use gonio_simd::{Column, Lanes};
+use gonio_simd::{Column, Lanes, WavelengthColumn, Wavelengths};
 use std::ops::Range;
 
 /// A sensor, rebased world space.
@@ -116,7 +116,7 @@ pub(crate) fn queue_sensors<L: Lanes>(l: L, sensors: &SensorTable, chosen: Range
             geometric_normal: normal,
             shading_normal: normal,
             receiver: l.u(0),
-            core: PathCore::of_sensors(l, number - chosen.start as u32, &sensors.surroundings, sensor),
+            core: PathCore::of_sensors(l, Wavelengths::rgb(l), number - chosen.start as u32, (&sensors.surroundings, sensor)),
         };
         points.append(&point, inside);
     }
@@ -129,13 +129,13 @@ pub(crate) fn start_sensors<L: Lanes>(
     sensors: &SensorTable,
     sampler: &Sampler,
     area: TileArea,
-    runs: &Runs,
+    (runs, wavelengths): (&Runs, WavelengthColumn<'_>),
     points: &mut MeasurePoints,
     paths: &mut Paths,
 ) {
     (paths.count, points.count) = (0, 0);
-    for [slot, first_pixel, sample] in runs.registers(L::COUNT) {
-        let (slot, pixel) = (l.iota() + slot, l.iota() + first_pixel);
+    for [first_slot, first_pixel, sample] in runs.registers(L::COUNT) {
+        let (slot, pixel) = (l.iota() + first_slot, l.iota() + first_pixel);
         let (x, y) = (morton_even(pixel) + area.min[0], morton_even(pixel >> 1) + area.min[1]);
         let sensor = ((y >> sensors.side_log2) << sensors.across_log2) + (x >> sensors.side_log2);
         let inside = x.lt(area.max[0]) & y.lt(area.max[1]) & sensor.lt(sensors.count);
@@ -148,7 +148,7 @@ pub(crate) fn start_sensors<L: Lanes>(
         let normal = (gather3(l, &sensors.normal, sensor) * cos + gather3(l, &sensors.side, sensor) * sin).normalize();
         let position = gather3(l, &sensors.position, sensor);
         let looks = l.gather_integers(&sensors.looks, sensor).ne(0);
-        let core = PathCore::of_sensors(l, slot, &sensors.surroundings, sensor);
+        let core = PathCore::of_sensors(l, wavelengths.load(l, first_slot as usize), slot, (&sensors.surroundings, sensor));
         let point = MeasureLanes {
             position,
             error: l.gather(&sensors.error, sensor),

@@ -7,23 +7,25 @@ use crate::stage::find::closures::{ClosureHits, MaterialHits, each_closure};
 use crate::stage::find::sort::for_materials;
 use crate::state::rays::Rays;
 use crate::state::start_room::StartRoom;
+use crate::state::wavelengths::SlotWavelengths;
 use crate::tables::Tables;
 use crate::tables::bodies::Body;
 use crate::tables::material::parameter_values;
 use crate::words::ray_mask;
 use gonio_accel::{NONE, TransparentHit};
-use gonio_simd::{Execution, Lanes, One, PADDING, SpectrumColumns, dispatch, padded};
+use gonio_camera::Surroundings;
+use gonio_simd::{Column, Execution, Lanes, One, PADDING, SpectrumColumns, dispatch, padded};
 
 /// Along no axis and no diagonal, so that it seldom meets an edge.
 const DIRECTION: [f32; 3] = [0.233_25, 0.317_56, 0.919_11];
 /// Most surfaces of a mesh that are crossed.
 const MOST: usize = 4096;
 
-/// The names of the media at a place in rebased world space, and the absorption a metre of the solid about it, R, G, B.
-pub(super) fn media_at(tables: &Tables, origin: [f32; 3]) -> ([u32; 2], [f32; 3]) {
+/// What is at a place in rebased world space, as colour; its index is not looked for.
+pub(super) fn media_at(tables: &Tables, origin: [f32; 3]) -> Surroundings {
     let table = &tables.materials.media;
     if !tables.bodies.absorbing.iter().any(|body| body.may_hold(origin)) {
-        return ([table.everywhere, 0], [0.0; 3]);
+        return Surroundings { media: [table.everywhere, 0], ..Surroundings::OPEN };
     }
     let mut rays = Rays::new(PADDING, ray_mask::ALL);
     for axis in 0..3 {
@@ -32,28 +34,38 @@ pub(super) fn media_at(tables: &Tables, origin: [f32; 3]) -> ([u32; 2], [f32; 3]
     }
     let mut media = MediaColumns::new(PADDING);
     media.store(MediaSet::everywhere(One, table), 0);
-    start_media(tables, Execution::Scalar, &tables.bodies.absorbing, &rays, 1, &mut media, &mut StartRoom::default());
+    let mut room = StartRoom::default();
+    start_media(tables, Execution::Scalar, &tables.bodies.absorbing, (&rays, None), 1, &mut media, &mut room);
     let (names, solid) = media.load(One, 0).parts();
-    (names.map(|word| word.0), solid.to_rgb().into())
+    let tints = room.innermost.first().map_or(0.0, |crossing| room.tints[*crossing]);
+    Surroundings { media: names.map(|word| word.0), absorption: solid.to_rgb().into(), tints, ..Surroundings::OPEN }
 }
+
+/// Wavelengths of slots, where light has any, and the rays' slots.
+type RayWavelengths<'a> = Option<(&'a SlotWavelengths, &'a [u32])>;
 
 /// Adds to `media` what is where the first `count` rays start, which look along their own directions for the bodies that hold them.
 pub(crate) fn start_media(
     tables: &Tables,
     execution: Execution,
     bodies: &[Body],
-    rays: &Rays,
+    (rays, wavelengths): (&Rays, RayWavelengths<'_>),
     count: usize,
     media: &mut MediaColumns,
     room: &mut StartRoom,
 ) {
+    room.innermost.clear();
     cross_all(tables, execution, bodies, rays, count, room);
     if room.crossings.is_empty() {
         return;
     }
-    look_up(tables, execution, rays, room);
+    look_up(tables, execution, (rays, wavelengths), room);
     enter_filled(room, media);
-    set_innermost(room, media);
+    find_innermost(room);
+    for crossing in &room.innermost {
+        let (ray, row) = (room.crossings[*crossing].ray, room.solid[*crossing].unwrap_or(0));
+        media.set_solid(ray as usize, (&room.absorption, *crossing), row);
+    }
 }
 
 /// Lists the rays that start within a body's bounds.
@@ -111,17 +123,19 @@ fn cross(tables: &Tables, execution: Execution, instance: u32, rays: &Rays, room
 }
 
 /// Finds the sides of all crossings, and what absorbs behind their surfaces.
-fn look_up(tables: &Tables, execution: Execution, rays: &Rays, room: &mut StartRoom) {
+fn look_up(tables: &Tables, execution: Execution, (rays, wavelengths): (&Rays, RayWavelengths<'_>), room: &mut StartRoom) {
     let mut crossings = std::mem::take(&mut room.crossings);
     room.absorption = SpectrumColumns::new(padded(crossings.len()) + PADDING);
+    room.tints.clear();
     room.sides.clear();
     room.solid.clear();
     room.filling.clear();
     for_materials(tables, &mut crossings, |material, chunk| {
-        dispatch!(execution, l => look_up_chunk(l, tables, MaterialHits { material, hits: chunk, rays, wavelengths: None }, room));
+        dispatch!(execution, l => look_up_chunk(l, tables, MaterialHits { material, hits: chunk, rays, wavelengths }, room));
         for i in 0..chunk.len() {
             let at = room.sides.len();
             room.absorption.add(at, &room.chunk, i, 1.0);
+            room.tints.push(room.chunk_tints[i]);
             room.sides.push(room.columns.surface.side[i]);
         }
         room.solid.resize(room.sides.len(), tables.materials.is_solid(material).then(|| tables.materials.solid_medium(material)));
@@ -132,8 +146,9 @@ fn look_up(tables: &Tables, execution: Execution, rays: &Rays, room: &mut StartR
 
 #[inline(always)]
 fn look_up_chunk<L: Lanes>(l: L, tables: &Tables, chunk: MaterialHits<'_>, room: &mut StartRoom) {
-    let StartRoom { chunk: sums, weights, columns, .. } = room;
+    let StartRoom { chunk: sums, chunk_tints: tints, weights, columns, .. } = room;
     sums.clear();
+    tints.fill(0.0);
     each_closure(
         l,
         tables,
@@ -141,13 +156,13 @@ fn look_up_chunk<L: Lanes>(l: L, tables: &Tables, chunk: MaterialHits<'_>, room:
         |mix| &mix.program,
         (weights, columns),
         #[inline(always)]
-        |closure| add_inside(l, tables, closure, sums),
+        |closure| add_inside(l, tables, closure, (sums, tints)),
     );
 }
 
-/// Adds what a surface encloses, times its weights if it is a closure of several.
+/// Adds what a surface encloses, and how often a metre that has its colour, times its weights if it is a closure of several.
 #[inline(always)]
-fn add_inside<L: Lanes>(l: L, tables: &Tables, mut closure: ClosureHits<'_>, sums: &mut SpectrumColumns) {
+fn add_inside<L: Lanes>(l: L, tables: &Tables, mut closure: ClosureHits<'_>, (sums, tints): (&mut SpectrumColumns, &mut Column)) {
     let material = &tables.materials.surfaces[closure.surface];
     closure.run(l, tables, &material.program);
     let values = parameter_values(material, closure.columns.outputs());
@@ -155,11 +170,13 @@ fn add_inside<L: Lanes>(l: L, tables: &Tables, mut closure: ClosureHits<'_>, sum
         if material.solid_medium.is_some() {
             break;
         }
-        let mut inside = material.surface.absorption(l, &values, at);
+        let (mut inside, mut often) = (material.surface.absorption(l, &values, at), material.surface.tints(l, &values, at));
         if let Some(weights) = closure.weights {
-            inside = inside * weights.load(l, at);
+            let weight = weights.load(l, at);
+            (inside, often) = (inside * weight, often * weight.mean());
         }
         sums.store(sums.load(l, at) + inside, at);
+        (l.load(tints, at) + often).store(tints, at);
     }
 }
 
@@ -180,8 +197,8 @@ fn enter_filled(room: &StartRoom, media: &mut MediaColumns) {
 
 /// Solids take each other's place: what the nearest surface encloses of those that hold the place. A surface that faces inwards bounds a hole, which takes
 /// away the solid about it.
-fn set_innermost(room: &StartRoom, media: &mut MediaColumns) {
-    let StartRoom { crossings, sides, absorption, solid, .. } = room;
+fn find_innermost(room: &mut StartRoom) {
+    let StartRoom { crossings, sides, solid, innermost, .. } = room;
     let mut order: Vec<usize> = (0..crossings.len()).filter(|i| solid[*i].is_some()).collect();
     let (body, t) = (|i: &usize| (crossings[*i].ray, crossings[*i].instance), |i: &usize| crossings[*i].t);
     order.sort_unstable_by(|a, b| body(a).cmp(&body(b)).then(t(a).total_cmp(&t(b))));
@@ -197,7 +214,7 @@ fn set_innermost(room: &StartRoom, media: &mut MediaColumns) {
         for (_, left, exit) in of_ray {
             holes -= left;
             if let Some(exit) = exit.filter(|_| holes < 0.0) {
-                media.set_solid(crossings[exit].ray as usize, (absorption, exit), solid[exit].unwrap_or(0));
+                innermost.push(exit);
                 break;
             }
         }

@@ -10,5 +10,5 @@ pub fn surroundings_at(tables: &Tables, places: &[[f64; 3]]) -> Vec<Surroundings
     let rebased: Vec<[f32; 3]> = places.iter().map(|place| [0, 1, 2].map(|axis| (place[axis] - tables.origin[axis]) as f32)).collect();
     let squared = squared_indices_at(tables, &rebased);
     let media = rebased.iter().map(|place| media_at(tables, *place));
-    media.zip(squared).map(|((media, absorption), squared_index)| Surroundings { media, absorption, squared_index }).collect()
+    media.zip(squared).map(|(media, squared_index)| Surroundings { squared_index, ..media }).collect()
 }

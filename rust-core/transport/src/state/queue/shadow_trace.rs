@@ -7,7 +7,7 @@ use crate::state::queue::shadow_order::ShadowOrder;
 use crate::state::queue::shadow_rays::{SHADOW_ROOM, ShadowRays};
 use crate::state::rays::Rays;
 use crate::state::textured_emission::EmissionScratch;
-use crate::state::wavelengths::SlotWavelengths;
+use crate::state::wavelengths::{ChunkWavelengths, SlotWavelengths};
 use crate::tables::Tables;
 use crate::words::ray_mask;
 use gonio_accel::TransparentHit;
@@ -19,6 +19,8 @@ use std::sync::Arc;
 pub(crate) struct ShadowTrace {
     /// Wavelengths of the rays' slots; none where slots are no paths', whose light is colour.
     pub(crate) wavelengths: Option<Arc<SlotWavelengths>>,
+    /// The same by shadow ray; filled where anything absorbs.
+    pub(crate) of_rays: ChunkWavelengths,
     pub(crate) order: ShadowOrder,
     /// By shadow ray, 1 where something opaque blocks it.
     pub(crate) blocked: Vec<u8>,
@@ -61,7 +63,8 @@ impl ShadowTrace {
     #[inline(always)]
     pub(crate) fn track<L: Lanes>(&mut self, l: L, tables: &Tables, shadows: &mut ShadowRays) {
         let Rays { origin, direction, time, .. } = &shadows.rays;
-        let rays = TrackedRays { origin: slices(origin), direction: slices(direction), time, salt: &shadows.salt };
+        let wavelengths = self.of_rays.column();
+        let rays = TrackedRays { origin: slices(origin), direction: slices(direction), time, salt: &shadows.salt, wavelengths };
         self.depth.track(l, &tables.materials.media, rays, &self.blocked, &mut shadows.contribution);
     }
 }
@@ -81,6 +84,7 @@ impl Default for ShadowTrace {
     fn default() -> Self {
         Self {
             wavelengths: None,
+            of_rays: ChunkWavelengths::default(),
             order: ShadowOrder::default(),
             blocked: Vec::new(),
             passed: Vec::new(),
