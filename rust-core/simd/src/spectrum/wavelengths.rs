@@ -158,10 +158,7 @@ impl<'a, L: Lanes> Wavelengths<'a, L> {
     pub fn of_rows(self, quads: &Column, row: U<L>) -> Option<Spectrum<L>> {
         self.table.map(
             #[inline(always)]
-            |table| {
-                let [r, g, b, _] = self.rotation.lanes().gather_quads(quads, (row * table.rotations + self.rotation) * WORDS);
-                Spectrum { r, g, b }
-            },
+            |table| of_rows(table, self.rotation, quads, row),
         )
     }
     /// Door for light: light as colour to be stored.
@@ -231,6 +228,18 @@ fn seen<L: Lanes>(table: &WavelengthTable, rotation: U<L>, light: Spectrum<L>) -
                 sum = Rgb::new(r.mul_add(value, sum.r), g.mul_add(value, sum.g), b.mul_add(value, sum.b));
             }
             sum
+        },
+    )
+}
+
+/// Quads of a column at rotations of rows. Apart, to keep what calls it small where light is colour.
+#[inline(never)]
+fn of_rows<L: Lanes>(table: &WavelengthTable, rotation: U<L>, quads: &Column, row: U<L>) -> Spectrum<L> {
+    rotation.lanes().vectorize(
+        #[inline(always)]
+        || {
+            let [r, g, b, _] = rotation.lanes().gather_quads(quads, (row * table.rotations + rotation) * WORDS);
+            Spectrum { r, g, b }
         },
     )
 }

@@ -21,7 +21,7 @@ pub(crate) struct FieldRays<L: Lanes> {
     bricks: [U<L>; 4],
     coarse: [U<L>; 4],
     /// See [`FieldTable::colours`]; none where no field has any.
-    colours: Option<[[U<L>; 4]; 3]>,
+    colours: Option<[[U<L>; 3]; 3]>,
     /// Metres that stand for nothing: a thousandth of a cell.
     step: F<L>,
 }
@@ -93,7 +93,10 @@ impl<L: Lanes> FieldRays<L> {
             colours: match table.is_coloured {
                 true => Some(table.colours.each_ref().map(
                     #[inline(always)]
-                    |colours| l.gather_integer_quads(colours, at),
+                    |colours| {
+                        let [r, g, b, _] = l.gather_integer_quads(colours, at);
+                        [r, g, b]
+                    },
                 )),
                 false => None,
             },
@@ -323,7 +326,7 @@ fn leaving<L: Lanes>(cell: U<L>, edge: U<L>, [low, high]: [F<L>; 2], [origin, in
 
 /// A colour R, G, B at a place, by the first bricks of its components.
 #[inline(always)]
-fn colour<L: Lanes>(l: L, table: &FieldTable, place: &Place<L>, [r, g, b, _]: &[U<L>; 4]) -> [F<L>; 3] {
+fn colour<L: Lanes>(l: L, table: &FieldTable, place: &Place<L>, [r, g, b]: &[U<L>; 3]) -> [F<L>; 3] {
     [value(l, table, place, *r), value(l, table, place, *g), value(l, table, place, *b)]
 }
 

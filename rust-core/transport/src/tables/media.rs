@@ -74,8 +74,8 @@ impl MediumTable {
         self.varies |= medium.field != 0;
         self.rows.len() as u32
     }
-    /// Tells the coefficients at the wavelengths of a table, by which they are asked for from now on; without one at none.
-    pub fn set_wavelengths(&mut self, table: Option<&WavelengthTable>) {
+    /// Tells the coefficients of all rows at the wavelengths of a table, by which they are asked for from now on.
+    pub fn set_wavelengths(&mut self, table: &WavelengthTable) {
         coefficients::set_wavelengths(self, table);
     }
     /// Says which instance set each row belongs to, from row 1 on.

@@ -79,7 +79,9 @@ pub struct Tables {
 impl Tables {
     /// Says what the wavelengths of paths mean from now on, where light has any; the media are told.
     pub fn set_wavelengths(&mut self, table: Option<Arc<WavelengthTable>>) {
-        self.materials.media.set_wavelengths(table.as_deref());
+        if let Some(table) = &table {
+            self.materials.media.set_wavelengths(table);
+        }
         self.wavelengths = table;
     }
 }

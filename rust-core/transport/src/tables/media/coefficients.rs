@@ -43,9 +43,6 @@ impl Quantity {
             }
         }
     }
-    fn forget_wavelengths(&mut self) {
-        self.by_rotation = Column::new(0);
-    }
 }
 
 fn extinction(row: &Medium) -> [f32; 3] {
@@ -53,11 +50,8 @@ fn extinction(row: &Medium) -> [f32; 3] {
 }
 
 /// See [`MediumTable::set_wavelengths`].
-pub(super) fn set_wavelengths(media: &mut MediumTable, table: Option<&WavelengthTable>) {
+pub(super) fn set_wavelengths(media: &mut MediumTable, table: &WavelengthTable) {
     let MediumTable { rows, extinction, field_extinction, scattering, emission, .. } = media;
-    let Some(table) = table else {
-        return [extinction, field_extinction, scattering, emission].into_iter().for_each(Quantity::forget_wavelengths);
-    };
     let colour = |[r, g, b]: [f32; 3]| Rgb::new(One.f(r), One.f(g), One.f(b));
     let scattered = |wavelengths: Wavelengths<'_, One>, row: &Medium| wavelengths.coefficient(colour(row.scattering));
     let taken =
@@ -119,19 +113,15 @@ impl<L: Lanes> Coefficients<'_, L> {
     /// are 1.
     #[inline(always)]
     pub(crate) fn varied(self, l: L, row: U<L>, factors: [[F<L>; 3]; 2], even: [Spectrum<L>; 2]) -> [Spectrum<L>; 2] {
-        let rgb = Wavelengths::rgb(l);
-        let [scattering, extinction] = factors.map(
+        let factors = factors.map(
             #[inline(always)]
             |[r, g, b]| Rgb::new(r, g, b),
         );
-        if self.wavelengths.is_colour() {
-            return [even[0] * rgb.coefficient(scattering), even[1] * rgb.coefficient(extinction)];
+        if !self.wavelengths.is_colour() {
+            return varied_spectra(self, row, &factors);
         }
-        let scattering = gathered(l, &self.table.scattering.colour, row) * scattering;
-        let extinction = gathered(l, &self.table.field_extinction.colour, row) * extinction;
-        let absorption = Rgb::new(extinction.r - scattering.r, extinction.g - scattering.g, extinction.b - scattering.b).max(0.0);
-        let scattering = self.wavelengths.coefficient(scattering);
-        [scattering, scattering + self.wavelengths.coefficient(absorption)]
+        let rgb = Wavelengths::rgb(l);
+        [even[0] * rgb.coefficient(factors[0]), even[1] * rgb.coefficient(factors[1])]
     }
     /// The greatest extinction of some rows by fields where density is 1; `coloured` are those whose colours vary.
     #[inline(always)]
@@ -161,6 +151,23 @@ impl<L: Lanes> Coefficients<'_, L> {
         );
         self.wavelengths.radiance(low.lerp(high, part))
     }
+}
+
+/// Scattering and extinction at wavelengths where the colours of some rows by fields vary by factors.
+#[inline(never)]
+fn varied_spectra<L: Lanes>(media: Coefficients<'_, L>, row: U<L>, factors: &[Rgb<L>; 2]) -> [Spectrum<L>; 2] {
+    row.lanes().vectorize(
+        #[inline(always)]
+        || {
+            let l = row.lanes();
+            let Coefficients { table, wavelengths } = media;
+            let scattering = gathered(l, &table.scattering.colour, row) * factors[0];
+            let extinction = gathered(l, &table.field_extinction.colour, row) * factors[1];
+            let absorption = Rgb::new(extinction.r - scattering.r, extinction.g - scattering.g, extinction.b - scattering.b).max(0.0);
+            let scattering = wavelengths.coefficient(scattering);
+            [scattering, scattering + wavelengths.coefficient(absorption)]
+        },
+    )
 }
 
 #[inline(always)]
