@@ -124,7 +124,7 @@ fn the_sun_has_its_spectrum_and_its_colour() {
         for elevation in [90.0, 60.0, 30.0, 10.0, 5.0, 2.0, 0.5] {
             let sky = sky(SkyModel::Perez, elevation, turbidity);
             let set = sky.sun_spectra().expect("spectra");
-            let colour = sky.sun_irradiance().map(|value| value / sky.direct_lux);
+            let colour = sky.sun_colour;
             let found = |point: usize| of_colour(&set, point, colour);
             let mass = relative_air_mass(elevation);
             let formula = |nm: f64| {
