@@ -94,11 +94,10 @@ fn eval_side<L: Lanes>(l: L, lobe: &MeasuredLobe<'_, L>, [side, kind]: [usize; 2
     l.vectorize(
         #[inline(always)]
         || {
-            let own = lobe.wavelengths.nanometres().and_then(
-                #[inline(always)]
-                |nanometres| lobe.bsdf.eval_at(l, nanometres, wi, wo),
-            );
-            if let Some(own) = own {
+            // No closure of an Option's: it may stay a call outside of the lanes' level.
+            if let Some(nanometres) = lobe.wavelengths.nanometres()
+                && let Some(own) = lobe.bsdf.eval_at(l, nanometres, wi, wo)
+            {
                 return own;
             }
             let (colour, pdf) = lobe.bsdf.eval_side(l, side, kind == 1, wi, wo);
