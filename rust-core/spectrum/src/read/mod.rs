@@ -1,5 +1,6 @@
 //! Files of spectra: text of wavelength and power, and TM-27.
 
+pub(crate) mod glass;
 pub(crate) mod metal;
 pub(crate) mod response;
 mod spdx;
