@@ -16,6 +16,14 @@ class GonioMaterialSettings(bpy.types.PropertyGroup):
         options={"PATH_SUPPORTS_BLEND_RELATIVE"},
         update=tag_data,
     )
+    glass: StringProperty(
+        name="Glass",
+        description="What refracting parts of the material are made of, in place of their IOR: a name such as N-BK7, water, diamond or acrylic, or a file "
+        "of wavelengths and n",
+        subtype="FILE_PATH",
+        options={"PATH_SUPPORTS_BLEND_RELATIVE"},
+        update=tag_data,
+    )
     spectrum: StringProperty(
         name="Spectrum",
         description="Spectrum of what the material emits, whose colour takes the place of its own: a name such as LED-B3, FL11 or 2700K, or a file of "

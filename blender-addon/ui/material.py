@@ -61,6 +61,7 @@ class GONIO_MATERIAL_PT_settings(MaterialPanel, Panel):
         self.layout.prop(context.material, "pass_index")
         self.layout.prop(context.material, "use_transparent_shadow")
         self.layout.prop(context.material.gonio, "metal")
+        self.layout.prop(context.material.gonio, "glass")
         self.layout.prop(context.material.gonio, "spectrum")
 
 

@@ -33,7 +33,7 @@ from .closures import closure
 from .displacement import displace
 from .flatten import GREY, flatten
 from .interior import medium, usual
-from .metal import metal
+from .made_of import glass, metal
 from .shader_outputs import shader_outputs
 from .sockets import active_output, input_socket
 from .translator import Translator
@@ -71,8 +71,9 @@ def translate(material, images, measurements, report, version=None, shader_aovs=
     outputs = shader_outputs(t, shader_aovs) if shader_aovs else []
     is_uneven = inside is not None and not inside.is_even
     described = _described(t, material, outputs, displacement, None if is_uneven else inside)
-    if (made_of := metal(material, report)) is not None:
-        described["closures"] = [{**made, "metal": made_of} for made in described["closures"]]
+    for kind, made_of in (("metal", metal(material, report)), ("glass", glass(material, report))):
+        if made_of is not None:
+            described["closures"] = [{**made, kind: made_of} for made in described["closures"]]
     if material.gonio.spectrum:
         described["spectrum"] = spectrum(material, report, "Material", material=material.name)
     if not material.use_transparent_shadow and not (end is not None and t.linked(end, "Volume", t.root)):

@@ -62,11 +62,11 @@ impl<L: Lanes> Layers<'_, '_, '_, L> {
     /// Glass, or refraction alone.
     #[inline(always)]
     fn single_interface(&mut self, colour: Spectrum<L>) {
-        let ior = self.dispersed(self.get(p::IOR).max(1e-5));
+        let ior = self.get(p::IOR).max(1e-5);
         let eta = self.entering.select(ior, ior.recip());
         let film = self.film(self.entering.select(self.l.f(1.0), ior));
         let refracts_only = self.surface.switches.closure == Closure::Refraction;
-        let plain = Interface::clear(eta);
+        let plain = Interface::clear(eta, self.spread(ior));
         let interface = Interface { f0: plain.f0 * colour, f90: colour, passed: colour, refracts_only, film, ..plain };
         let roughness = self.base_roughness();
         self.interface(self.weight, Widths::isotropic(roughness * roughness), None, interface);

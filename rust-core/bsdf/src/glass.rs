@@ -2,6 +2,7 @@
 //!
 //! No radiance scaling with the squared index: light that enters and leaves keeps its value.
 
+use super::dispersion::Spread;
 use super::film::Film;
 use super::fresnel::{dielectric_share, normal_reflectance, schlick_share};
 use super::microfacet::{MIRROR, Widths, beckmann};
@@ -14,8 +15,10 @@ const STRAIGHT: f32 = 1e-4;
 /// Colours of an interface: what reflects, and what is kept from passing.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Interface<L: Lanes> {
-    /// Far over near index.
+    /// Far over near index; of glass that disperses, the one that is stated.
     pub(crate) eta: F<L>,
+    /// The index by wavelength, where wavelengths part ways.
+    pub(crate) spread: Option<Spread<L>>,
     /// Reflection at normal incidence.
     pub(crate) f0: Spectrum<L>,
     /// Reflection at grazing.
@@ -35,30 +38,51 @@ pub(crate) struct Interface<L: Lanes> {
 impl<L: Lanes> Interface<L> {
     /// An interface of index `eta` that takes no colour.
     #[inline(always)]
-    pub(crate) fn clear(eta: F<L>) -> Self {
-        let (normal, white) = (Spectrum::constant(normal_reflectance(eta)), Spectrum::one(eta.lanes()));
-        Self { eta, f0: normal, f90: white, kept: normal, passed: white, schlick: false, refracts_only: false, film: None }
+    pub(crate) fn clear(eta: F<L>, spread: Option<Spread<L>>) -> Self {
+        let normal = match &spread {
+            Some(spread) => spread.normal_reflectance(),
+            None => Spectrum::constant(normal_reflectance(eta)),
+        };
+        let white = Spectrum::one(eta.lanes());
+        Self { eta, spread, f0: normal, f90: white, kept: normal, passed: white, schlick: false, refracts_only: false, film: None }
     }
     /// Reflected and passed colour at half-angle cosine `c`.
     #[inline(always)]
     pub(crate) fn split(&self, c: F<L>) -> [Spectrum<L>; 2] {
+        match &self.spread {
+            Some(spread) => self.split_spread(spread, Spectrum::constant(c)),
+            None => self.split_at(c, self.eta),
+        }
+    }
+    /// The same at a cosine for each wavelength.
+    #[inline(always)]
+    fn split_spread(&self, spread: &Spread<L>, c: Spectrum<L>) -> [Spectrum<L>; 2] {
+        c.own(
+            spread.etas,
+            #[inline(always)]
+            |c, eta| self.split_at(c, eta),
+        )
+    }
+    /// The same by an index.
+    #[inline(always)]
+    fn split_at(&self, c: F<L>, eta: F<L>) -> [Spectrum<L>; 2] {
         let l = c.lanes();
         let white = Spectrum::one(l);
         if self.refracts_only {
-            let total = (1.0 - c * c).ge(self.eta * self.eta);
+            let total = (1.0 - c * c).ge(eta * eta);
             return [Spectrum::zero(l), self.passed.keep_if(!total)];
         }
         let share = if self.schlick {
             // Total internal reflection comes before the approximate curve.
-            let total = (1.0 - c * c).ge(self.eta * self.eta);
+            let total = (1.0 - c * c).ge(eta * eta);
             total.select(l.f(1.0), schlick_share(c))
         } else {
-            dielectric_share(c, self.eta)
+            dielectric_share(c, eta)
         };
         let reflected = self.f0.lerp(self.f90, share);
         let passed = (white - self.kept) * self.passed * (1.0 - share);
         let Some(film) = &self.film else { return [reflected, passed] };
-        let [mirrored, kept] = film.over_two(c, self.eta, [[self.f0, self.f90], [self.kept, white]]);
+        let [mirrored, kept] = film.over_two(c, eta, [[self.f0, self.f90], [self.kept, white]]);
         [reflected.lerp(mirrored, film.weight), passed.lerp((white - kept) * self.passed, film.weight)]
     }
     /// Probability of reflection at half-angle cosine `c`.
@@ -66,6 +90,16 @@ impl<L: Lanes> Interface<L> {
     fn reflects([reflected, passed]: [Spectrum<L>; 2]) -> F<L> {
         let (r, t) = (reflected.mean(), passed.mean());
         r / (r + t).max(1e-20)
+    }
+    /// The same of each wavelength by itself.
+    #[inline(always)]
+    fn reflects_each([reflected, passed]: [Spectrum<L>; 2]) -> Spectrum<L> {
+        let [reflects] = reflected.zip(
+            passed,
+            #[inline(always)]
+            |r, t| [r / (r + t).max(1e-20)],
+        );
+        reflects
     }
 }
 
@@ -81,10 +115,13 @@ pub(crate) struct GlassLobe<L: Lanes> {
 }
 
 impl<L: Lanes> GlassLobe<L> {
-    /// Far over near index.
+    /// Square of the far over the near index.
     #[inline(always)]
-    pub(crate) fn eta(&self) -> F<L> {
-        self.interface.eta
+    pub(crate) fn squared_index(&self) -> Spectrum<L> {
+        match &self.interface.spread {
+            Some(spread) => spread.etas * spread.etas,
+            None => Spectrum::constant(self.interface.eta * self.interface.eta),
+        }
     }
     /// The lobe seen from `wo`.
     #[inline(always)]
@@ -112,8 +149,32 @@ impl<L: Lanes> GlassLobe<L> {
     /// Value × cosine and pdf.
     #[inline(always)]
     pub(crate) fn eval(&self, wo: Vec3<L>, wi: Vec3<L>) -> (Spectrum<L>, F<L>) {
+        let passes = wi.z.lt(0.0);
+        let Some(spread) = &self.interface.spread else {
+            let (c, [value, density], possible) = self.facets(wo, wi, self.interface.eta);
+            let split = self.interface.split(c);
+            let reflects = Interface::reflects(split);
+            let pdf = density * passes.select(1.0 - reflects, reflects);
+            return ((passes.select(split[1], split[0]) * value).keep_if(possible), pdf.keep_if(possible));
+        };
+        let [c, value, density] = spread.etas.zip(
+            spread.etas,
+            #[inline(always)]
+            |eta, _| {
+                let (c, [value, density], possible) = self.facets(wo, wi, eta);
+                [c, value.keep_if(possible), density.keep_if(possible)]
+            },
+        );
+        let split = self.interface.split_spread(spread, c);
+        let reflects = Interface::reflects_each(split);
+        let chosen = passes.select(Spectrum::one(wo.x.lanes()) - reflects, reflects);
+        (passes.select(split[1], split[0]) * value, spread.density(density * chosen))
+    }
+    /// At an index: the cosine of the facets that send light from `wi` to `wo`, value × cosine and pdf but for what the interface makes of them, and where
+    /// there are such facets.
+    #[inline(always)]
+    fn facets(&self, wo: Vec3<L>, wi: Vec3<L>, eta: F<L>) -> (F<L>, [F<L>; 2], M<L>) {
         let l = wo.x.lanes();
-        let eta = self.interface.eta;
         let passes = wi.z.lt(0.0);
         // One half vector for both: the relative index is 1 in a reflection. It points to the upper side.
         let sum = wi * passes.select(eta, l.f(1.0)) + wo;
@@ -121,7 +182,6 @@ impl<L: Lanes> GlassLobe<L> {
         let h = sum * sum.z.gt(0.0).select(l.f(1.0), l.f(-1.0)) * length2.inverse_root();
         let (c, d) = (wo.dot(h), wi.dot(h));
         let possible = wo.z.gt(0.0) & !self.delta & c.gt(0.0) & passes.select(d.lt(0.0), d.gt(0.0));
-        let split = self.interface.split(c.saturate());
         let jacobian = passes.select(eta * eta * c * d.abs() / length2, l.f(0.25));
         let density = self.widths.distribution(h) * jacobian * 2.0;
         let (light, view) = (wi.z.abs(), wo.z);
@@ -130,9 +190,7 @@ impl<L: Lanes> GlassLobe<L> {
         } else {
             density * light / self.stretch.mul_add(light, self.widths.stretch(wi) * view)
         };
-        let reflects = Interface::reflects(split);
-        let pdf = density / (self.stretch + view) * passes.select(1.0 - reflects, reflects);
-        ((passes.select(split[1], split[0]) * value).keep_if(possible), pdf.keep_if(possible))
+        (c.saturate(), [value, density / (self.stretch + view)], possible)
     }
     /// A direction with the pdf of [`Self::eval`], and whether it ended on the side that `u[0]` chose.
     #[inline(always)]
@@ -140,9 +198,13 @@ impl<L: Lanes> GlassLobe<L> {
         let l = wo.x.lanes();
         let h = self.widths.sample(wo, l.f(1.0), [u[1], u[2]]);
         let c = wo.dot(h);
-        let reflects = Interface::reflects(self.interface.split(c.saturate()));
-        let (refracted, squared) = refract(wo, h, self.interface.eta);
-        let mirrored = u[0].lt(reflects);
+        let split = self.interface.split(c.saturate());
+        let [reflects, eta, u_side] = match &self.interface.spread {
+            Some(spread) => spread.draw(u[0], Interface::reflects_each(split)),
+            None => [Interface::reflects(split), self.interface.eta, u[0]],
+        };
+        let (refracted, squared) = refract(wo, h, eta);
+        let mirrored = u_side.lt(reflects);
         let wi = mirrored.select(wo.reflect(h), refracted);
         (wi, mirrored.select(wi.z.gt(0.0), wi.z.lt(0.0) & squared.gt(0.0)))
     }
@@ -150,9 +212,14 @@ impl<L: Lanes> GlassLobe<L> {
     #[inline(always)]
     pub(crate) fn smooth(&self, wo: Vec3<L>, wi: Vec3<L>) -> (Spectrum<L>, F<L>) {
         let split = self.interface.split(wo.z.saturate());
+        let (passes, usable) = (wi.z.lt(0.0), wo.z.gt(0.0));
+        if let Some(spread) = &self.interface.spread {
+            let (reflects, bent, white) = (Interface::reflects_each(split), spread.bent(wo, wi), Spectrum::one(wo.x.lanes()));
+            let chosen = passes.select((white - reflects) * bent, reflects);
+            let value = passes.select(split[1] * bent, split[0]);
+            return (value.keep_if(usable), spread.density(chosen).keep_if(usable));
+        }
         let reflects = Interface::reflects(split);
-        let passes = wi.z.lt(0.0);
-        let usable = wo.z.gt(0.0);
         (passes.select(split[1], split[0]).keep_if(usable), passes.select(1.0 - reflects, reflects).keep_if(usable))
     }
 }

@@ -11,6 +11,7 @@ mod base;
 mod closure;
 mod coat;
 mod diffuse;
+mod dispersion;
 mod energy;
 mod film;
 mod fresnel;

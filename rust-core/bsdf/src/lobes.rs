@@ -207,12 +207,12 @@ impl<'s, L: Lanes> Lobes<'s, L> {
     pub fn portal(&self) -> Option<&Portal<L>> {
         self.portal.as_ref()
     }
-    /// Far over near index of the interface that light passes, where the surface has one.
+    /// Square of the far over the near index of the interface that light passes, where the surface has one.
     #[inline(always)]
-    pub fn eta(&self) -> Option<F<L>> {
+    pub fn squared_index(&self) -> Option<Spectrum<L>> {
         for slot in self.slots[..self.count].iter().flatten() {
             if let Shape::Glass(lobe) = &slot.shape {
-                return Some(lobe.eta());
+                return Some(lobe.squared_index());
             }
         }
         None

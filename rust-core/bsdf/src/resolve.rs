@@ -10,7 +10,7 @@ use super::parameter as p;
 use super::subsurface::{EntryLobe, LEAST_RADIUS, medium};
 use super::surface::{ParameterValues, Surface};
 use super::switches::{Attenuation, Bump, Closure, EmissionOrder, Fuzz, FuzzAttenuation, FuzzOrder, SubsurfaceMethod};
-use gonio_simd::{F, Hero, Lanes, M, Spectrum, Vec3, Wavelengths};
+use gonio_simd::{F, Lanes, M, Spectrum, Vec3, Wavelengths};
 
 /// The layers' state on the way in.
 pub(super) struct Layers<'s, 'a, 'b, L: Lanes> {
@@ -29,8 +29,8 @@ pub(super) struct Layers<'s, 'a, 'b, L: Lanes> {
     pub(super) numbers: Option<&'a [F<L>; NUMBERS]>,
     /// Whether light walks under the surface.
     pub(super) walks: bool,
-    /// The wavelength that goes on alone, where the surface disperses.
-    pub(super) hero: Option<Hero<L>>,
+    /// What the hits' paths carry, where the surface disperses.
+    pub(super) carried: Option<Spectrum<L>>,
     /// What the layers above leave.
     pub(super) weight: Spectrum<L>,
     /// Whether a coloured coat stands above.
@@ -53,8 +53,8 @@ pub struct Hits<'s, 'a, L: Lanes> {
     pub normals: Option<&'a Normals<L>>,
     /// Whether light walks under the surface; else it comes out where it went in.
     pub walks: bool,
-    /// The wavelength that goes on alone where the surface disperses; none where light has no wavelengths.
-    pub hero: Option<Hero<L>>,
+    /// What the hits' paths carry, by which wavelengths draw ways through a surface that disperses. Without it all are bent alike.
+    pub carried: Option<Spectrum<L>>,
     /// Random numbers of each hit, for surfaces that draw a way inside ([`LobeSet::drawn`](super::LobeSet)).
     pub numbers: Option<&'a [F<L>; NUMBERS]>,
 }
@@ -63,7 +63,7 @@ impl<'s, L: Lanes> Hits<'s, '_, L> {
     /// Hits of which nothing is asked but what passes straight, or shines.
     #[inline(always)]
     fn plain(values: &'s ParameterValues<'s>, at: usize, wo: Vec3<L>, entering: M<L>) -> Self {
-        Self { values, at, wo, entering, normals: None, walks: true, hero: None, numbers: None }
+        Self { values, at, wo, entering, normals: None, walks: true, carried: None, numbers: None }
     }
 }
 
@@ -86,7 +86,7 @@ impl Surface {
 
     #[inline(always)]
     fn layers<'s, L: Lanes>(&'s self, l: L, hits: &Hits<'s, '_, L>, lobes: &mut Lobes<'s, L>) {
-        let Hits { values, at, wo, entering, normals, walks, hero, numbers } = *hits;
+        let Hits { values, at, wo, entering, normals, walks, carried, numbers } = *hits;
         if let Some(normals) = normals {
             let presence = values.get(l, p::COAT_WEIGHT, at).saturate();
             lobes.tilts = self.tilts(normals, wo, presence);
@@ -106,7 +106,7 @@ impl Surface {
             entering,
             numbers,
             walks,
-            hero: hero.filter(|_| self.lobes.disperses),
+            carried: carried.filter(|_| self.lobes.disperses),
             weight: Spectrum::one(l),
             coated: false,
             lobes,

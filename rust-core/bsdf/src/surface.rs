@@ -75,6 +75,8 @@ pub struct Surface {
     pub measured: Option<Arc<MeasuredBsdf>>,
     /// The row of its metal in the table of wavelengths; without one, and where light is colour, n and k are parameters.
     pub metal: Option<u32>,
+    /// The row of its glass there; without one the index is the stated one, and differs by the Abbe number.
+    pub glass: Option<u32>,
     /// The number of the spectrum of what it sends in the table of wavelengths, counted from 1; 0 is none.
     pub spectrum: u32,
 }
@@ -84,7 +86,14 @@ impl Surface {
     pub fn new(constants: [f32; COUNT], varying: &[bool; COUNT], switches: Switches) -> Self {
         let reach = Reach { constants: &constants, varying };
         let lobes = if switches.closure == Closure::Layered { reach.layered(&switches) } else { reach.single(&switches) };
-        Self { constants, switches, lobes, measured: None, metal: None, spectrum: 0 }
+        Self { constants, switches, lobes, measured: None, metal: None, glass: None, spectrum: 0 }
+    }
+
+    /// The surface with the glass of a row, where there is one.
+    pub fn of_glass(mut self, row: Option<u32>) -> Self {
+        self.glass = row;
+        self.lobes.disperses |= row.is_some() && self.lobes.transmission && !self.switches.thin_walled;
+        self
     }
 
     /// Compiles a surface that shows a measurement: alone, or under the coat and the fuzz of a layered one in place of the base.

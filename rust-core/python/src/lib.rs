@@ -98,7 +98,7 @@ mod _gonio {
     #[pymodule_export]
     use crate::spectral_picture::{SpectralPicture, spectral_picture};
     #[pymodule_export]
-    use crate::spectrum::{colour_reflectance, illuminant, metal, read_metal, read_spectrum, spectrum_figures};
+    use crate::spectrum::{colour_reflectance, glass, illuminant, metal, read_glass, read_metal, read_spectrum, spectrum_figures};
     #[pymodule_export]
     use crate::sunlight::sunlight;
     #[pymodule_export]

@@ -1,7 +1,7 @@
 //! Spectra of lamps and what they say.
 
 use crate::error::{exception, setting};
-use gonio_spectrum::{Figures, MetalIndex, OPSINS, REC709_TO_REC2020, Spectrum, White, named, upsampling};
+use gonio_spectrum::{Figures, GlassIndex, MetalIndex, OPSINS, REC709_TO_REC2020, Spectrum, White, named, upsampling};
 use pyo3::{prelude::*, types::PyDict};
 
 /// The spectrum of a file's bytes, text of nm and power, IES TM-27 or TM-33: `name`, `wavelengths_nm`, `power` over its largest, and `notes` on the data.
@@ -43,6 +43,32 @@ fn metal_described<'py>(py: Python<'py>, metal: &MetalIndex) -> PyResult<Bound<'
     described.set_item("k", &metal.k)?;
     described.set_item("color", metal.colour(1.0).to_vec())?;
     described.set_item("notes", &metal.notes)?;
+    Ok(described)
+}
+
+/// The glass or liquid of a name such as `N-BK7`, `water` or `SiO2-Malitson`: `name`, `wavelengths_nm`, `n` (the index at each), `ior` (at 587.56 nm), `abbe`
+/// (the Abbe number by the lines d, F and C; None without dispersion) and `notes` on the data.
+#[pyfunction]
+pub(crate) fn glass<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyDict>> {
+    let unknown = || setting("glass", format!("'{name}' was found, expected one of {}", gonio_spectrum::glass_sets().join(", ")));
+    glass_described(py, &gonio_spectrum::glass(name).ok_or_else(unknown)?)
+}
+
+/// The glass of a file's bytes as `glass` gives it: rows of wavelength (nm or micrometres) and n, or the refractiveindex.info database's YAML.
+#[pyfunction]
+pub(crate) fn read_glass<'py>(py: Python<'py>, data: &[u8], name: &str) -> PyResult<Bound<'py, PyDict>> {
+    let found = gonio_spectrum::read_glass(data, name).map_err(|error| exception(gonio::Error::in_file(name, &error)))?;
+    glass_described(py, &found)
+}
+
+fn glass_described<'py>(py: Python<'py>, glass: &GlassIndex) -> PyResult<Bound<'py, PyDict>> {
+    let described = PyDict::new(py);
+    described.set_item("name", &glass.name)?;
+    described.set_item("wavelengths_nm", &glass.wavelengths_nm)?;
+    described.set_item("n", &glass.n)?;
+    described.set_item("ior", glass.stated())?;
+    described.set_item("abbe", Some(glass.abbe()).filter(|abbe| abbe.is_finite()))?;
+    described.set_item("notes", &glass.notes)?;
     Ok(described)
 }
 

@@ -19,6 +19,7 @@ pub mod error;
 mod eyes;
 mod field;
 mod flow;
+mod glass_index;
 mod goniogram;
 mod instance;
 mod lamp_spectrum;
@@ -59,6 +60,7 @@ pub use error::{Diagnostic, Error, Result, Severity};
 pub use eyes::{Eyes, SITTING, STANDING};
 pub use field::{COLOURS, Field, Lattice};
 pub use flow::Flow;
+pub use glass_index::GlassIndex;
 pub use gonio_formats::photometry::{Opening, OpeningShape, PhotometricType};
 pub use gonio_nodes::{
     Channel, Graph, Input, LightPathValue, Node, NodeId, Operation, Quantity, Space, TextureFilter, TextureId, WrapMode,

@@ -1,6 +1,6 @@
 //! Materials: a surface model with parameters that are constants or outputs of a node graph.
 
-use super::{Displacement, LampSpectrum, MeasuredId, Medium, MetalIndex, Origin};
+use super::{Displacement, GlassIndex, LampSpectrum, MeasuredId, Medium, MetalIndex, Origin};
 use gonio_nodes::{Graph, Input, NodeId};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -148,6 +148,9 @@ pub struct Closure {
     /// The metal that metallic parts are of, in place of their colours and of `metal_n` and `metal_k`; where `metalness` is not set it is 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub metal: Option<Arc<MetalIndex>>,
+    /// The glass or liquid that refracting parts are of, in place of their index and Abbe number; where `transmission_weight` is not set it is 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub glass: Option<Arc<GlassIndex>>,
 }
 
 impl Default for Closure {
@@ -167,6 +170,7 @@ impl Default for Closure {
             subsurface: SubsurfaceMethod::default(),
             measured: None,
             metal: None,
+            glass: None,
         }
     }
 }

@@ -85,6 +85,6 @@ pub use one::One;
 pub use prefetch::{prefetch, prefetch_at};
 pub use rgb::Rgb;
 pub use sort::{Sort8, sorts_fast};
-pub use spectrum::{FIRST_COLOUR_SPECTRA, Hero, Spectrum, SpectrumColumns, SpectrumItems, WavelengthColumn, WavelengthTable, Wavelengths};
+pub use spectrum::{FIRST_COLOUR_SPECTRA, Spectrum, SpectrumColumns, SpectrumItems, WavelengthColumn, WavelengthTable, Wavelengths};
 pub use vector::{Vec2, Vec3};
 pub use wide::Wide;

@@ -8,7 +8,7 @@ mod upsampled;
 mod wavelengths;
 
 pub use columns::{SpectrumColumns, SpectrumItems};
-pub use wavelengths::{FIRST_COLOUR_SPECTRA, Hero, WavelengthColumn, WavelengthTable, Wavelengths};
+pub use wavelengths::{FIRST_COLOUR_SPECTRA, WavelengthColumn, WavelengthTable, Wavelengths};
 
 use crate::{F, Lanes, M, Rgb, Select};
 use core::ops::{Add, AddAssign, Div, Mul, Sub};
@@ -65,6 +65,18 @@ impl<L: Lanes> Spectrum<L> {
         let mut all = [self; N];
         for (i, one) in all.iter_mut().enumerate() {
             *one = Self { r: r[i], g: g[i], b: b[i] };
+        }
+        all
+    }
+
+    /// By component, that component of what a function makes of it and of another's: for what is computed of all components at once. `f` as for
+    /// [`Self::map`].
+    #[inline(always)]
+    pub fn own<const N: usize>(self, o: Self, f: impl Fn(F<L>, F<L>) -> [Self; N]) -> [Self; N] {
+        let (r, g, b) = (f(self.r, o.r), f(self.g, o.g), f(self.b, o.b));
+        let mut all = [self; N];
+        for (i, one) in all.iter_mut().enumerate() {
+            *one = Self { r: r[i].r, g: g[i].g, b: b[i].b };
         }
         all
     }
@@ -139,6 +151,13 @@ impl<L: Lanes> Spectrum<L> {
         first.select(values.r, second.select(values.g, last))
     }
 
+    /// What such a choice leaves of `u`, in `[0, 1)` again.
+    #[inline(always)]
+    pub fn left_by_choice(self, u: F<L>) -> F<L> {
+        let before = Self { r: u.lanes().f(0.0), g: self.r, b: self.r + self.g };
+        ((u - self.choose(u, before)) / self.choose(u, self).max(1e-20)).clamp(0.0, 0.999_999_94)
+    }
+
     /// `self * s + o` with a scalar factor.
     #[inline(always)]
     pub fn mul_add(self, s: F<L>, o: Self) -> Self {
@@ -163,6 +182,11 @@ impl<L: Lanes> Spectrum<L> {
     #[inline(always)]
     pub fn ln(self) -> Self {
         Self { r: self.r.ln(), g: self.g.ln(), b: self.b.ln() }
+    }
+    /// One over each component.
+    #[inline(always)]
+    pub fn recip(self) -> Self {
+        Self { r: self.r.recip(), g: self.g.recip(), b: self.b.recip() }
     }
     /// Square roots of the components, 0 of negative ones.
     #[inline(always)]

@@ -4,7 +4,7 @@ use super::network::Network;
 use super::neutral::NodeIndex;
 use super::outputs::{output_name, render_contexts};
 use super::surface::straight;
-use super::{dangling, displaced, from_usd, metal, surface, volume};
+use super::{dangling, displaced, from_usd, made_of, surface, volume};
 use crate::context::Context;
 use crate::lamp_spectrum::lamp_spectrum;
 use crate::prim::Prim;
@@ -30,7 +30,7 @@ pub(super) fn convert<'py>(context: &mut Context<'_, 'py>, prim: &Prim<'py>, pat
         let shader = network.shader(NodeIndex(0));
         if let Some(mut closures) = surface::convert(&mut network, &shader) {
             let mut graph = network.graph;
-            metal::apply(context, prim, &mut closures);
+            made_of::apply(context, prim, &mut closures);
             let displacement = displaced::read(context, prim, &mut graph);
             let spectrum = lamp_spectrum(context, prim);
             return Some(Material {

@@ -172,7 +172,7 @@ fn resolve<L: Lanes>(l: L, job: &mut Shading) {
         let wo = Vec3::load(l, [&x[..], &y[..], &z[..]], at);
         surface.resolve(
             l,
-            &Hits { values: &values, at: 0, wo, entering: l.m(true), normals: None, walks: true, hero: None, numbers: None },
+            &Hits { values: &values, at: 0, wo, entering: l.m(true), normals: None, walks: true, carried: None, numbers: None },
             &mut lobes,
         );
         light.store(lobes.albedo(), at);
@@ -186,7 +186,7 @@ fn sample<L: Lanes>(l: L, job: &mut Shading) {
     let mut lobes = Lobes::empty(l);
     surface.resolve(
         l,
-        &Hits { values: &values, at: 0, wo, entering: l.m(true), normals: None, walks: true, hero: None, numbers: None },
+        &Hits { values: &values, at: 0, wo, entering: l.m(true), normals: None, walks: true, carried: None, numbers: None },
         &mut lobes,
     );
     for at in (0..BATCH).step_by(L::COUNT) {
@@ -205,7 +205,7 @@ fn evaluate<L: Lanes>(l: L, job: &mut Shading) {
     let mut lobes = Lobes::empty(l);
     surface.resolve(
         l,
-        &Hits { values: &values, at: 0, wo, entering: l.m(true), normals: None, walks: true, hero: None, numbers: None },
+        &Hits { values: &values, at: 0, wo, entering: l.m(true), normals: None, walks: true, carried: None, numbers: None },
         &mut lobes,
     );
     for at in (0..BATCH).step_by(L::COUNT) {

@@ -58,7 +58,7 @@ impl<L: Lanes> Lobes<'_, L> {
                 let passed = (wo.z * wi.z).lt(0.0);
                 value = match asked {
                     // Camera paths keep radiance behind an interface without the squared index; flux has it.
-                    Asked::Seen => value * passed.select((lobe.eta() * lobe.eta()).recip(), l.f(1.0)),
+                    Asked::Seen => value * passed.select(lobe.squared_index().recip(), Spectrum::one(l)),
                     Asked::Along => value.keep_if(passed),
                     _ => value.keep_if(!passed),
                 };

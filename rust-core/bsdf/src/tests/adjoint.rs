@@ -30,7 +30,7 @@ fn kernel<L: Lanes>(l: L, (view, whole): (&View, bool), numbers: &[[f32; 3]], di
         entering: l.m(view.entering),
         normals: normals.as_ref(),
         walks: true,
-        hero: None,
+        carried: None,
         numbers: None,
     };
     let (mut lobes, mut room) = (Lobes::empty(l), Lobes::empty(l));

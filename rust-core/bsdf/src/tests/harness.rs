@@ -3,7 +3,8 @@
 use crate::hair::NUMBERS;
 use crate::normals::Normals;
 use crate::{BsdfSample, Hits, Lobes, ParameterValues, Surface};
-use gonio_simd::{Execution, F, Lanes, Spectrum, Vec3, dispatch};
+use gonio_simd::{Column, Execution, F, Lanes, Rgb, Spectrum, Vec3, WavelengthColumn, WavelengthTable, Wavelengths, dispatch};
+use std::sync::LazyLock;
 
 /// A surface seen from one direction.
 #[derive(Clone)]
@@ -15,7 +16,22 @@ pub(super) struct View {
     pub(super) geometric: Option<[f32; 3]>,
     /// What fibres draw their ways inside by.
     pub(super) inside: [f32; NUMBERS],
+    /// What paths carry at three wavelengths; without it light is colour.
+    pub(super) carried: Option<[f32; 3]>,
 }
+
+/// Indices of the glass of the first row at three wavelengths, over the stated one: further apart than those of any glass.
+pub(super) const RATIOS: [f32; 3] = [0.95, 1.0, 1.08];
+
+/// One rotation of 660, 540 and 440 nm.
+static WAVELENGTHS: LazyLock<WavelengthTable> = LazyLock::new(|| {
+    let quad = |[a, b, c]: [f32; 3]| {
+        let mut column = Column::new(4);
+        column[..4].copy_from_slice(&[a, b, c, 0.0]);
+        column
+    };
+    WavelengthTable { rotations: 1, places: quad([0.7, 0.4, 0.15]), glasses: quad(RATIOS), ..WavelengthTable::default() }
+});
 
 /// One sampled direction.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -64,7 +80,12 @@ pub(super) fn sample<L: Lanes>(l: L, lobes: &Lobes<'_, L>, wo: Vec3<L>, u: [F<L>
 #[inline(always)]
 fn kernel<L: Lanes>(l: L, view: &View, job: &mut Job) {
     let wo = Vec3::splat(l, view.wo);
-    let values = ParameterValues::constant(&view.surface.constants);
+    let mut values = ParameterValues::constant(&view.surface.constants);
+    let mut carried = None;
+    if let Some([r, g, b]) = view.carried {
+        values.wavelengths = WavelengthColumn::new(Some(&WAVELENGTHS), &[0; 16]);
+        carried = Some(Wavelengths::rgb(l).coefficient(Rgb::new(l.f(r), l.f(g), l.f(b))));
+    }
     let normals = match view.geometric {
         Some(geometric) => Some(Normals { geometric: Vec3::splat(l, geometric), smooth: Vec3::splat(l, [0.0, 0.0, 1.0]), coat: None }),
         None => None,
@@ -77,7 +98,7 @@ fn kernel<L: Lanes>(l: L, view: &View, job: &mut Job) {
         entering: l.m(view.entering),
         normals: normals.as_ref(),
         walks: true,
-        hero: None,
+        carried,
         numbers: Some(&inside),
     };
     let mut lobes = Lobes::empty(l);
@@ -127,7 +148,7 @@ impl View {
         Self::of(surface, direction(theta, 0.0), entering)
     }
     pub(super) fn of(surface: &Surface, wo: [f32; 3], entering: bool) -> Self {
-        Self { surface: surface.clone(), wo, entering, geometric: None, inside: [0.5; NUMBERS] }
+        Self { surface: surface.clone(), wo, entering, geometric: None, inside: [0.5; NUMBERS], carried: None }
     }
     /// Over a triangle whose normal leans from the shading normal towards the view by `lean` degrees.
     pub(super) fn smooth(surface: &Surface, theta: f32, lean: f32, entering: bool) -> Self {

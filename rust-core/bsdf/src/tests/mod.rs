@@ -3,6 +3,7 @@
 mod adjoint;
 mod chi_square;
 mod cycles;
+mod dispersion;
 mod elliptic;
 mod film;
 mod furnace;

@@ -25,7 +25,7 @@ fn answer<L: Lanes>(l: L, surface: &Surface, lean: f32, wo: [f32; 3], sun: Optio
     let mut lobes = Lobes::empty(l);
     surface.resolve(
         l,
-        &Hits { values: &values, at: 0, wo, entering: l.m(true), normals: Some(&normals), walks: true, hero: None, numbers: None },
+        &Hits { values: &values, at: 0, wo, entering: l.m(true), normals: Some(&normals), walks: true, carried: None, numbers: None },
         &mut lobes,
     );
     if let Some(sun) = sun {
@@ -110,7 +110,7 @@ fn coat<L: Lanes>(l: L, surface: &Surface, wo: [f32; 3], normal: [f32; 3], out: 
     let mut lobes = Lobes::empty(l);
     surface.resolve(
         l,
-        &Hits { values: &values, at: 0, wo, entering: l.m(true), normals: Some(&normals), walks: true, hero: None, numbers: None },
+        &Hits { values: &values, at: 0, wo, entering: l.m(true), normals: Some(&normals), walks: true, carried: None, numbers: None },
         &mut lobes,
     );
     let sample = harness::sample(l, &lobes, wo, [l.f(0.0), l.f(0.3), l.f(0.7)]);

@@ -43,7 +43,7 @@ fn albedo<L: Lanes>(l: L, surface: &Surface, wo: [f32; 3], sum: &mut [f64; 3]) {
     let mut lobes = Lobes::empty(l);
     surface.resolve(
         l,
-        &Hits { values: &values, at: 0, wo, entering: l.m(true), normals: None, walks: true, hero: None, numbers: None },
+        &Hits { values: &values, at: 0, wo, entering: l.m(true), normals: None, walks: true, carried: None, numbers: None },
         &mut lobes,
     );
     let mut numbers = Numbers { seed: 7, stock: Vec::new() };

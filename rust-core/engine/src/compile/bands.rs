@@ -51,7 +51,7 @@ impl BandedScene {
         let busy = || Error::Internal("the scene of one band of wavelengths is in use while the next is asked for".to_owned());
         let scene = Arc::get_mut(&mut self.scene).ok_or_else(busy)?;
         let count = if scene.tables.materials.surfaces.iter().any(|surface| surface.surface.lobes.disperses) { BENT } else { 1 };
-        let mut table = scene.spectra.table_of_band((self.bands, band), &self.lamps, &scene.metals, count);
+        let mut table = scene.spectra.table_of_band((self.bands, band), &self.lamps, (&scene.metals, &scene.glasses), count);
         table.colour_spectra = column(&column_of_band(&self.skies, band, count));
         scene.tables.set_wavelengths(Some(Arc::new(table)));
         Ok(&self.scene)

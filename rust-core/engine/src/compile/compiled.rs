@@ -2,8 +2,8 @@
 
 use super::fields::KeptFields;
 use super::{
-    bounds::Bounds, casters::Casters, dice::KeptDiced, displace::KeptDisplaced, kept::KeptImages, light_images::LightImages,
-    lights::KeptLights, measured::CompiledMeasured, metals::Metals,
+    bounds::Bounds, casters::Casters, dice::KeptDiced, displace::KeptDisplaced, glasses::Glasses, kept::KeptImages,
+    light_images::LightImages, lights::KeptLights, measured::CompiledMeasured, metals::Metals,
 };
 use super::{primvars, smooth::KeptSmooth, trees::KeptTree, wavelengths::LampSpectra};
 use crate::{
@@ -41,6 +41,8 @@ pub struct CompiledScene {
     pub(super) spectra: LampSpectra,
     /// Its metals.
     pub(super) metals: Metals,
+    /// Its glasses.
+    pub(super) glasses: Glasses,
     /// What renders leave for the next.
     pub(crate) workspaces: Arc<Workspaces>,
     /// What it was made of.

@@ -4,6 +4,7 @@ use super::{
     compiled::Kept,
     displace::Laid,
     fields::KeptFields,
+    glasses::Glasses,
     materials,
     measured::{self, CompiledMeasured},
     metals::Metals,
@@ -24,6 +25,7 @@ pub(super) struct Looks {
     pub(super) textures: CompiledTextures,
     pub(super) measured: CompiledMeasured,
     pub(super) metals: Metals,
+    pub(super) glasses: Glasses,
     pub(super) spectra: LampSpectra,
     /// Names of the primvars that programs read.
     pub(super) names: Vec<String>,
@@ -37,10 +39,12 @@ impl Looks {
         let textures = textures::compile(scene, &kept.images, cancel, diagnostics)?;
         let measured = measured::compile(scene, &kept.measured, diagnostics);
         let metals = Metals::of(scene, diagnostics);
+        let glasses = Glasses::of(scene, diagnostics);
         let spectra = LampSpectra::of(scene, diagnostics);
         let names = primvars::used_names(scene, &measured);
-        let (materials, fields) = materials::compile(scene, &textures, (&measured, &metals, &spectra), &names, &kept.fields, diagnostics)?;
-        Ok(Self { textures, measured, metals, spectra, names, materials, fields })
+        let named = (&measured, &metals, &glasses);
+        let (materials, fields) = materials::compile(scene, &textures, (named, &spectra), &names, &kept.fields, diagnostics)?;
+        Ok(Self { textures, measured, metals, glasses, spectra, names, materials, fields })
     }
 
     /// What displacement reads.

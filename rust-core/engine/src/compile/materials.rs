@@ -7,6 +7,7 @@ mod program;
 
 use super::{
     fields::{self, KeptFields},
+    glasses::{self, Glasses},
     measured::CompiledMeasured,
     metals::{self, Metals},
     standard_passes,
@@ -31,11 +32,14 @@ const MOST_NODES: usize = 1 << 16;
 /// Reflectance of surfaces without a material, and of measured ones without a measurement.
 const DEFAULT_REFLECTANCE: [f32; 3] = [0.18; 3];
 
+/// What materials name: measurements, metals and glasses.
+type Named<'a> = (&'a CompiledMeasured, &'a Metals, &'a Glasses);
+
 /// Compiles all materials; the default one stands last. Gives their surfaces and mixes.
 pub(super) fn compile(
     scene: &Scene,
     textures: &CompiledTextures,
-    (measured, metals, spectra): (&CompiledMeasured, &Metals, &LampSpectra),
+    (named, spectra): (Named<'_>, &LampSpectra),
     names: &[String],
     kept: &KeptFields,
     diagnostics: &mut Vec<Diagnostic>,
@@ -60,13 +64,14 @@ pub(super) fn compile(
         let graph = compile_graph(material, textures, names)?;
         tell_weights(material, &graph, diagnostics);
         metals::tell_unused(material, diagnostics);
+        glasses::tell(material, diagnostics);
         let interior = media::add(&material.medium, &material.origin, &usable, &mut table.media, diagnostics);
         for closure in &material.closures {
             let solid_medium = match closure.thin_walled {
                 true => None,
                 false => media::add(&closure.solid, &material.origin, &usable, &mut table.media, diagnostics),
             };
-            let mut surface = surface(material, closure, (measured, metals), &graph, diagnostics);
+            let mut surface = surface(material, closure, named, &graph, diagnostics);
             surface.surface.spectrum = spectrum;
             let bounds_alone = interior.is_some() && is_nothing(material, closure);
             table.surfaces.push(SurfaceMaterial { interior, solid_medium, bounds_alone, ..surface });
@@ -166,7 +171,7 @@ fn constant(value: &[Operand; 4], [low, high]: [f32; 2]) -> Option<[f32; 3]> {
 fn surface(
     material: &Material,
     closure: &Closure,
-    (measured, metals): (&CompiledMeasured, &Metals),
+    (measured, metals, glasses): Named<'_>,
     graph: &CompiledGraph,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> SurfaceMaterial {
@@ -174,13 +179,17 @@ fn surface(
     if closure.model == Model::Measured && measured.is_none() {
         let mut grey = Closure { model: Model::Diffuse, parameters: Vec::new(), ..closure.clone() };
         grey.set_colour("base_color", DEFAULT_REFLECTANCE);
-        return surface(material, &grey, (&CompiledMeasured::default(), metals), graph, diagnostics);
+        return surface(material, &grey, (&CompiledMeasured::default(), metals, glasses), graph, diagnostics);
     }
     let mut switches = switches_of(closure);
     let mut parameters = Parameters::new(material, closure, (&switches, measured.is_some()), graph, diagnostics);
     let metal = metals.row_of(closure);
     if let Some(row) = metal {
         metals.set(row, closure, &mut switches, &mut parameters);
+    }
+    let glass = glasses.row_of(closure);
+    if let Some(row) = glass {
+        glasses.set(row, closure, &mut parameters);
     }
     let Parameters { constants, varying, outputs, sampled } = parameters;
     let mut wanted = Wanted { outputs, free_normal: switches.bump == Bump::Cycles, uv: graph.uv, ..Wanted::default() };
@@ -196,7 +205,7 @@ fn surface(
     program.light_path |= !material.shader_outputs.is_empty() && asks_for_ray(code);
     let surface = match measured {
         Some(measured) => Surface::measured(constants, &varying, switches, measured.clone()),
-        None => Surface { metal, ..Surface::new(constants, &varying, switches) },
+        None => Surface { metal, ..Surface::new(constants, &varying, switches) }.of_glass(glass),
     };
     let lobes = surface.lobes;
     let exit = (lobes.walk && wanted.normal.is_some()).then(|| {

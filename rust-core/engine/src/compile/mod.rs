@@ -18,6 +18,7 @@ mod fields;
 mod fill;
 mod filters;
 mod geometry;
+mod glasses;
 mod goniograms;
 mod instances;
 mod kept;
@@ -121,7 +122,7 @@ fn laid_out(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicBool
     let (of_light, kept_lights) = (mem::take(&mut lights.of_light), mem::take(&mut lights.kept));
     let mut tables = tables(scene, bvh, &mut looks, &mut shapes, lights);
     diagnostics.extend(light_groups::own_media(scene, &mut tables.materials));
-    tables.set_wavelengths(looks.spectra.table(scene, &looks.metals));
+    tables.set_wavelengths(looks.spectra.table(scene, (&looks.metals, &looks.glasses)));
     lamps_in_media::find(scene, &mut tables, &of_light, &mut diagnostics);
     if scene.settings.integrator == Integrator::Light {
         diagnostics.extend(unfollowed(scene, &tables));
@@ -139,6 +140,7 @@ fn laid_out(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicBool
         light_images: looks.textures.of_lights,
         spectra: looks.spectra,
         metals: looks.metals,
+        glasses: looks.glasses,
         workspaces: previous.map(|p| p.workspaces.clone()).unwrap_or_default(),
         kept: Kept {
             trees: shapes.trees,

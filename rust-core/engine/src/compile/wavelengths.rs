@@ -1,6 +1,6 @@
 //! What the wavelengths of paths mean: the table that kernels read, and the spectra of lamps.
 
-use super::{colour_spectra::SetsOfSpectra, metals::Metals, shining::emission_of_colour};
+use super::{colour_spectra::SetsOfSpectra, glasses::Glasses, metals::Metals, shining::emission_of_colour};
 use crate::{
     colour::luminance_of_pixel,
     error::Diagnostic,
@@ -116,13 +116,14 @@ impl LampSpectra {
     }
 
     /// The table of wavelengths, where light is to have any.
-    pub(super) fn table(&self, scene: &Scene, metals: &Metals) -> Option<Arc<WavelengthTable>> {
+    pub(super) fn table(&self, scene: &Scene, (metals, glasses): (&Metals, &Glasses)) -> Option<Arc<WavelengthTable>> {
         if !scene.settings.spectral {
             return None;
         }
         let plain = without_lamps();
-        let metals = metals.by_rotation();
-        if self.spectra.is_empty() && self.of_colours.is_empty() && metals.is_empty() && scene.settings.observer.is_luminous() {
+        let (metals, glasses) = (metals.by_rotation(), glasses.by_rotation());
+        let is_plain = self.spectra.is_empty() && self.of_colours.is_empty() && metals.is_empty() && glasses.is_empty();
+        if is_plain && scene.settings.observer.is_luminous() {
             return Some(plain.clone());
         }
         let lamps: Vec<f32> = self.spectra.iter().flat_map(|lamp| &lamp.values).copied().flat_map(quad).collect();
@@ -130,6 +131,7 @@ impl LampSpectra {
             lamps: rows(lamps, Triples::COUNT),
             lamp_colours: self.colours(),
             metals: column(&metals),
+            glasses: column(&glasses),
             ..(**plain).clone()
         };
         table.colour_spectra = column(&self.of_colours.by_rotation());
@@ -146,7 +148,7 @@ impl LampSpectra {
         &self,
         (bands, band): (&Bands, usize),
         lamps: &[Vec<f32>],
-        metals: &Metals,
+        (metals, glasses): (&Metals, &Glasses),
         count: usize,
     ) -> WavelengthTable {
         let part = |number: usize| (number as f64 + 0.5) / count as f64 - 0.5;
@@ -160,6 +162,7 @@ impl LampSpectra {
             lamps: rows(lamps, count),
             lamp_colours: self.colours(),
             metals: column(&metals.at(&wavelengths)),
+            glasses: column(&glasses.at(&wavelengths)),
             ..(**without_lamps()).clone()
         }
     }
@@ -214,11 +217,7 @@ fn without_lamps() -> &'static Arc<WavelengthTable> {
 
 fn plain() -> WavelengthTable {
     let (triples, upsampling) = (triples(), upsampling());
-    let place = |(number, triple): (usize, [f32; 3])| {
-        let [long, middle, short] = triple.map(|nm| (nm - 380.0) / 400.0);
-        [long, middle, short, (number % 3) as f32]
-    };
-    let places: Vec<f32> = triples.centres().into_iter().enumerate().flat_map(place).collect();
+    let places: Vec<f32> = triples.centres().into_iter().flat_map(|triple| quad(triple.map(|nm| (nm - 380.0) / 400.0))).collect();
     let film = triples.film().into_iter().flatten().flat_map(quad).collect::<Vec<f32>>();
     WavelengthTable {
         rotations: Triples::COUNT as u32,
@@ -230,6 +229,7 @@ fn plain() -> WavelengthTable {
         lamp_colours: Column::new(0),
         colour_spectra: Column::new(0),
         metals: Column::new(0),
+        glasses: Column::new(0),
     }
 }
 

@@ -10,7 +10,7 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ._gonio import _setting_error, illuminant, metal, read_metal, read_spectrum, surface_parameters
+from ._gonio import _setting_error, glass, illuminant, metal, read_glass, read_metal, read_spectrum, surface_parameters
 from .texture import Texture
 
 if TYPE_CHECKING:
@@ -52,8 +52,8 @@ def columns(matrix: Matrix | None) -> dict[str, Any]:
 
 
 def material(name: str, parameters: Mapping[str, Any]) -> dict[str, Any]:
-    """A material of one OpenPBR surface; its parameters are numbers, triples or textures, `normal` a texture of tangent-space normals, `metal` what it
-    is made of, `spectrum` what its emission is of."""
+    """A material of one OpenPBR surface; its parameters are numbers, triples or textures, `normal` a texture of tangent-space normals, `metal` and
+    `glass` what it is made of, `spectrum` what its emission is of."""
     given = dict(parameters)
     closure: dict[str, Any] = {"thin_walled": given.pop("thin_walled", False)}
     nodes: list[dict[str, Any]] = []
@@ -64,6 +64,8 @@ def material(name: str, parameters: Mapping[str, Any]) -> dict[str, Any]:
         closure["normal"] = len(nodes) - 1
     if (metal_of := given.pop("metal", None)) is not None:
         closure["metal"] = metal_index(metal_of)
+    if (glass_of := given.pop("glass", None)) is not None:
+        closure["glass"] = glass_index(glass_of)
     described = {"origin": name, "closures": [closure], "graph": {"nodes": nodes}}
     if (spectrum := given.pop("spectrum", None)) is not None:
         described["spectrum"] = lamp_spectrum(spectrum)
@@ -94,6 +96,16 @@ def metal_index(of: Any) -> dict[str, Any]:
     if not isinstance(of, Mapping):
         raise _setting_error("metal", "expected a name, a file, or what `gonio.metal` gives")
     return {key: of[key] for key in ("name", "wavelengths_nm", "n", "k") if key in of}
+
+
+def glass_index(of: Any) -> dict[str, Any]:
+    """A glass or liquid as descriptions have it."""
+    if isinstance(of, (str, PathLike)):
+        path = Path(of)
+        of = read_glass(path.read_bytes(), path.name) if path.is_file() else glass(str(of))
+    if not isinstance(of, Mapping):
+        raise _setting_error("glass", "expected a name, a file, or what `gonio.glass` gives")
+    return {key: of[key] for key in ("name", "wavelengths_nm", "n") if key in of}
 
 
 def _input(name: str, value: Any, nodes: list[dict[str, Any]]) -> dict[str, Any]:

@@ -134,7 +134,7 @@ class Scene(_gonio.Scene):
     def add_material(self, name: str = "material", **parameters: float | bool | Sequence[float] | Texture | str | Mapping[str, Any]) -> int:
         """Adds a material: keyword arguments are surface parameters by their OpenPBR names, numbers, triples or textures; `normal`, a texture of
         tangent-space normals; `metal`, what it is made of: a name such as "gold", a file, or what `gonio.metal` gives;
-        `spectrum`, what its emission is of, as lights take it. Gives its number."""
+        `glass`, the same of what refracts: "N-BK7", "water", a file, or what `gonio.glass` gives; `spectrum`, what its emission is of, as lights take it. Gives its number."""
         return self.put_material(material(name, parameters))
 
     def add_curves(

@@ -19,7 +19,7 @@ pub const FIRST_COLOUR_SPECTRA: u32 = 1 << 24;
 pub struct WavelengthTable {
     /// How many rotations there are.
     pub rotations: u32,
-    /// Where the wavelengths stand between 380 and 780 nm, 0 to 1, and the number of the one that goes on alone: a quad a rotation.
+    /// Where the wavelengths stand between 380 and 780 nm, 0 to 1: a quad a rotation.
     pub places: Column,
     /// Linear Rec.709 of a component that is 1: a quad for each component of a rotation.
     pub film: Column,
@@ -35,6 +35,8 @@ pub struct WavelengthTable {
     pub colour_spectra: Column,
     /// Indices of metals: for each rotation of each metal a quad of n and one of k.
     pub metals: Column,
+    /// Indices of glasses over those at 587.56 nm: a quad for each rotation of each glass.
+    pub glasses: Column,
 }
 
 /// The wavelengths of a batch: rotations in a column. By default there are none.
@@ -65,15 +67,6 @@ impl<'a> WavelengthColumn<'a> {
             None => Wavelengths::rgb(l),
         }
     }
-}
-
-/// One of a path's wavelengths, which goes on alone where each would go its own way (Wilkie and others 2014, hero wavelength).
-#[derive(Clone, Copy, Debug)]
-pub struct Hero<L: Lanes> {
-    /// Where it stands.
-    pub nanometres: F<L>,
-    /// Factor on what the path carries: none is left of the others.
-    pub factor: Spectrum<L>,
 }
 
 /// The wavelengths of a register's paths.
@@ -161,6 +154,17 @@ impl<'a, L: Lanes> Wavelengths<'a, L> {
             |table| of_rows(table, self.rotation, quads, row),
         )
     }
+    /// The index of the glass of a row over that at 587.56 nm, where light has wavelengths.
+    #[inline(always)]
+    pub fn glass(self, row: u32) -> Option<Spectrum<L>> {
+        self.table.map(
+            #[inline(always)]
+            |table| {
+                let [r, g, b, _] = self.rotation.lanes().gather_quads(&table.glasses, (self.rotation + row * table.rotations) * WORDS);
+                Spectrum { r, g, b }
+            },
+        )
+    }
     /// Door for light: light as colour to be stored.
     #[inline(always)]
     pub fn to_rgb(self, light: Spectrum<L>) -> Rgb<L> {
@@ -184,26 +188,6 @@ impl<'a, L: Lanes> Wavelengths<'a, L> {
                 |place| place.mul_add(400.0, place.lanes().f(380.0)),
             )
         })
-    }
-    /// The one wavelength that goes on where wavelengths part ways, if there are any; it stands for the others of a path that carries all.
-    #[inline(always)]
-    pub fn hero(self, throughput: Spectrum<L>) -> Option<Hero<L>> {
-        let l = self.rotation.lanes();
-        self.table.map(
-            #[inline(always)]
-            |table| {
-                let [r, g, b, chosen] = l.gather_quads(&table.places, self.rotation * WORDS);
-                let place = chosen.lt(0.5).select(r, chosen.lt(1.5).select(g, b));
-                let (red, green, blue) = (chosen.lt(0.5), chosen.ge(0.5) & chosen.lt(1.5), chosen.ge(1.5));
-                // Where it went on alone before, nothing is left of the others.
-                let one = l.f(1.0);
-                let Spectrum { r, g, b } = throughput;
-                let others = red.select(l.f(0.0), r.abs()) + green.select(l.f(0.0), g.abs()) + blue.select(l.f(0.0), b.abs());
-                let all = others.gt(0.0).select(l.f(3.0), one);
-                let factor = Spectrum { r: all.keep_if(red), g: all.keep_if(green), b: all.keep_if(blue) };
-                Hero { nanometres: place.mul_add(400.0, l.f(380.0)), factor }
-            },
-        )
     }
 }
 

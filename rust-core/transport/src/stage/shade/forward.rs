@@ -6,7 +6,7 @@ use crate::stage::light::merge::in_share;
 use crate::stage::light::nee::{seen_share, shares_of};
 use crate::stage::shade::integrator::Integrator;
 use crate::stage::shade::scatter::{send_on, without_cut_outs};
-use crate::stage::shade::shading::{hero, normals, way_numbers};
+use crate::stage::shade::shading::{carried, normals, way_numbers};
 use crate::state::chunk::ChunkContext;
 use crate::state::light_paths::{ArrivalLanes, Connections};
 use crate::state::paths::Paths;
@@ -111,8 +111,10 @@ impl Integrator for LightIntegrator<'_> {
         let normals = normals(chunk, material, point, at);
         let entering = l.load(&chunk.columns.surface.side, at).gt(0.0);
         let numbers = way_numbers(chunk, material, point);
-        let (hero, wo) = (hero(chunk, material, point), point.local_wo);
-        let hits = Hits { values: &values, at, wo, entering, normals: normals.as_ref(), walks: true, hero, numbers: numbers.as_ref() };
+        let starts = &queues.light_paths.starts;
+        let carried = carried(material, starts.carried(l, point.core.slot, point.core.throughput));
+        let wo = point.local_wo;
+        let hits = Hits { values: &values, at, wo, entering, normals: normals.as_ref(), walks: true, carried, numbers: numbers.as_ref() };
         let whole = self.wanted.is_whole();
         let light = LightHits { hits, geometric: point.at.frame.to_local(point.at.geometric), whole };
         let mut room = Lobes::empty(l);
@@ -138,9 +140,9 @@ impl Integrator for LightIntegrator<'_> {
             factor = factor * own;
         }
         // Camera paths keep radiance behind an interface without the squared index, so what they take up there is less by it than the flux.
-        if let (false, Some(eta)) = (whole, lobes.eta()) {
+        if let (false, Some(squared)) = (whole, lobes.squared_index()) {
             let passed = sample.transmitted.and_not(sample.straight | sample.diffuse);
-            factor = factor * passed.select((eta * eta).recip(), l.f(1.0));
+            factor = factor * passed.select(squared.recip(), Spectrum::one(l));
         }
         let [_, u_roulette] = context.sampler.pair(l, index, base + dimension::LIGHT_CHOICE);
         let ending = if material.transparent { present.and_not(going_on) } else { l.m(false) };
@@ -295,13 +297,13 @@ fn connect<'s, L: Lanes>(
 #[inline(always)]
 fn as_radiance<L: Lanes>(lobes: &Lobes<'_, L>, to: Vec3<L>, [flux, diffuse]: [Spectrum<L>; 2]) -> Spectrum<L> {
     let behind = to.z.lt(0.0);
-    let Some(eta) = lobes.eta() else { return flux };
+    let Some(squared) = lobes.squared_index() else { return flux };
     if !behind.any() {
         return flux;
     }
     // What is scattered diffusely passes no interface.
     let passed = (flux - diffuse).part_of(flux);
-    behind.select(flux - passed * (1.0 - (eta * eta).recip()), flux)
+    behind.select(flux - passed * (Spectrum::one(flux.lanes()) - squared.recip()), flux)
 }
 
 impl Picture<'_> {

@@ -27,7 +27,7 @@ use gonio_bsdf::{
 };
 use gonio_camera::sampler::dimension;
 use gonio_light::hit_weight;
-use gonio_simd::{F, Frame, Hero, Lanes, M, Spectrum, Vec3, Wavelengths};
+use gonio_simd::{F, Frame, Lanes, M, Spectrum, Vec3, Wavelengths};
 
 /// Shades a chunk, whose surface columns and parameters are ready.
 #[inline(always)]
@@ -50,9 +50,9 @@ pub(crate) fn shade_chunk<L: Lanes, I: Integrator>(
         let (wo, entering) = (point.local_wo, l.load(&columns.surface.side, at).gt(0.0));
         let normals = normals(chunk, material, &point, at);
         let numbers = way_numbers(chunk, material, &point);
-        let hero = hero(chunk, material, &point);
+        let carried = carried(material, point.core.throughput);
         let (normals, numbers) = (normals.as_ref(), numbers.as_ref());
-        let hits = Hits { values: &values, at, wo, entering, normals, walks: I::WALKS, hero, numbers };
+        let hits = Hits { values: &values, at, wo, entering, normals, walks: I::WALKS, carried, numbers };
         material.surface.resolve(l, &hits, &mut lobes);
         if transport.limits.caustics != [true; 2] {
             let [reflecting, refracting] = transport.limits.caustics;
@@ -94,13 +94,10 @@ fn scattered_diffusely<L: Lanes>(point: &Vertex<L>) -> M<L> {
     point.alive & last.eq(event::DIFFUSE) & point.bounces.ne(0)
 }
 
-/// The wavelength that goes on alone where the material disperses.
+/// What paths carry, where the material disperses.
 #[inline(always)]
-pub(crate) fn hero<L: Lanes>(chunk: &ChunkContext<'_, L>, material: &SurfaceMaterial, point: &Vertex<L>) -> Option<Hero<L>> {
-    if !material.surface.lobes.disperses {
-        return None;
-    }
-    chunk.sample.wavelengths(chunk.l, point.core.slot).hero(point.core.throughput)
+pub(crate) fn carried<L: Lanes>(material: &SurfaceMaterial, light: Spectrum<L>) -> Option<Spectrum<L>> {
+    if material.surface.lobes.disperses { Some(light) } else { None }
 }
 
 /// What fibres draw their ways inside by, where the material has such.

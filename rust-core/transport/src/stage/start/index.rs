@@ -153,10 +153,10 @@ fn add_square<L: Lanes>(l: L, tables: &Tables, mut closure: ClosureHits<'_>, sum
     for at in (0..closure.hits.len()).step_by(L::COUNT) {
         let mut square = l.f(1.0);
         if set.transmission && !thin_walled {
-            let seen = Hits { values: &values, at, wo, entering: l.m(true), normals: None, walks: true, hero: None, numbers: None };
+            let seen = Hits { values: &values, at, wo, entering: l.m(true), normals: None, walks: true, carried: None, numbers: None };
             material.surface.resolve(l, &seen, &mut lobes);
-            if let Some(eta) = lobes.eta() {
-                square = eta * eta;
+            if let Some(squared) = lobes.squared_index() {
+                square = squared.constant_value();
             }
         }
         let weight = match closure.weights {
