@@ -96,6 +96,7 @@ PICTURES = (
     script("cloud", "A cloud", "An array of densities in the morning sun; light is scattered up to 64 times."),
     script("metals", "Metals by name", "Silver, aluminium, chromium, iron, titanium, brass, copper and gold, by measured indices."),
     script("colour_ring", "Colours under five lamps", "D65, LED-B3, LED-RGB1, FL11 and HP1: rendered once by wavelength, relit; above without, below with adaptation."),
+    script("glasses", "Glasses by name", "Stones of water, N-BK7, sapphire, N-SF66, diamond and moissanite before a small lamp, by their index at each wavelength."),
     script("car_paint", "Car paints", "Tables of measurements under a clear coat."),
     script("hair", "Hair", "A braid of twenty-seven thousand hairs between two rim lights."),
     script("pinwheels", "Motion blur", "Pinwheels that turn while the shutter is open."),
