@@ -84,7 +84,7 @@ fn texels_obey_the_inverse_square_law() {
     assert_eq!(known, 256);
     // Errors are told as if arrivals were independent; nets do better.
     assert!(squares / 256.0 < 1.3, "{}", squares / 256.0);
-    let total = maps.surfaces[0].summaries[0];
+    let total = &maps.surfaces[0].summaries[0];
     assert!((total.mean() / under_the_point([0.0; 2], 4.0) - 1.0).abs() < 5e-3, "{total:?}");
 }
 

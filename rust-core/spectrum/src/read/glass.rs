@@ -1,11 +1,11 @@
 //! Files of an index of refraction: rows of wavelength and n, or the refractiveindex.info database's YAML, whose formulas are computed.
 
-use super::{LONGEST, cells, decoded, quoted};
-use crate::{
-    check::MOST,
-    glass::{Formula, GlassIndex, POSSIBLE, nanometres},
+use super::{LONGEST, cells, decoded};
+use crate::glass::{Formula, GlassIndex, POSSIBLE, nanometres};
+use gonio_formats::{
+    FormatError,
+    spectrum::{MOST, quoted},
 };
-use gonio_formats::FormatError;
 
 /// Wavelengths below this are micrometres: no light that is seen has so few nm.
 const MICROMETRES: f64 = 50.0;
