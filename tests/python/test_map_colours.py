@@ -66,6 +66,13 @@ def test_maps_equal_meters(options):
     for quantity, coarse in (("cct", 12.0), ("duv", 0.0004), ("ra", 0.4), ("rf", 0.4), ("rg", 0.4)):
         error = together["standard_errors"][quantity]
         assert together[quantity] == pytest.approx(expected[quantity], abs=ERRORS * error + coarse), quantity
+    # Light has wavelengths here and there: as many lux, and as much melanopic light.
+    edi = np.mean([colour["melanopic_edi_lx"] for colour in colours])
+    errors = np.array([colour["standard_errors"]["melanopic_edi_lx"] for colour in colours])
+    off = ERRORS * np.hypot(np.sqrt((errors**2).sum()) / errors.size, floor.flux_error() / floor.area) + 0.01 * edi
+    assert np.nanmean(np.asarray(floor.figure("melanopic-edi"))) == pytest.approx(edi, abs=off)
+    lux, error = together["illuminance_lx"], together["standard_errors"]["illuminance_lx"]
+    assert floor.mean() == pytest.approx(lux, abs=ERRORS * np.hypot(error, floor.flux_error() / floor.area) + 2e-3 * lux)
     # The wall warms the light.
     assert expected["cct"] < 4050
     if options:
@@ -75,7 +82,7 @@ def test_maps_equal_meters(options):
         places = np.array([(x, y, 0.0) for y in (0.5, -0.5) for x in (-0.5, 0.5)])
     values = {quantity: np.ravel(floor.figure(quantity)) for quantity in (*QUANTITIES, "melanopic-edi")}
     errors = {quantity: np.ravel(floor.figure_errors(quantity)) for quantity in values}
-    lux = np.ravel(floor.illuminance())
+    parts = np.ravel(floor.illuminance())
     scene.truncate("grids", 0)
     scene.truncate("meters", 0)
     for place in places:
@@ -90,7 +97,7 @@ def test_maps_equal_meters(options):
             off = ERRORS * np.hypot(errors[quantity][part], reading.standard_error) + width
             assert values[quantity][part] == pytest.approx(reading.value, abs=off), (part, quantity)
         colour = readings[part * len(QUANTITIES)].colour
-        ratio = values["melanopic-edi"][part] / lux[part]
+        ratio = values["melanopic-edi"][part] / parts[part]
         assert ratio == pytest.approx(colour["melanopic_edi_lx"] / colour["illuminance_lx"], abs=0.01)
 
 

@@ -20,8 +20,8 @@ use gonio::{
     compile::compile,
     light_paths::Watch,
     map::{
-        IlluminationMaps, Looks, MapOptions, Quantity, SurfaceMap, TexelSize, divided_meshes, illumination_maps, map_layer, view,
-        write_map_exr,
+        IlluminationMaps, Looks, MapOptions, Quantity, SurfaceMap, TexelSize, divided_meshes, illumination_maps, map_layer, most_batches,
+        view, write_map_exr,
     },
     measure::MOST_BOUNCES,
     output::{FalseColour, FalseColourScale},
@@ -122,13 +122,12 @@ fn traced(
     interrupted: &AtomicBool,
 ) -> Result<IlluminationMaps> {
     let mut reporter = Reporter::new(options.quiet);
-    let batches = wanted.paths.div_ceil(LIGHT_BATCH as u64) as f64;
+    let batches = most_batches(scene, wanted) as f64;
     let start = Instant::now();
     let mut progress = |done: u64| {
         let paths = (done * LIGHT_BATCH as u64) as f64;
         let speed = paths * 1e-6 / start.elapsed().as_secs_f64().max(1e-3);
-        // Figures of colour come on top, so many as only the map tells.
-        let fraction = (done as f64 / batches).min(1.0);
+        let fraction = done as f64 / batches;
         let left = (done > 0).then(|| start.elapsed().mul_f64((1.0 - fraction).max(0.0) / fraction));
         reporter.tell(fraction, &format!("{:.1} million paths at most", paths * 1e-6), left, &format!("{speed:.2} million a second"));
         goes_on(interrupted)

@@ -90,8 +90,8 @@ impl Colours {
 impl Place {
     fn row(&self) -> Vec<String> {
         let [x, y, z] = self.at;
-        // A value and its error stand in one line.
-        let whole = |text: String| text.replace(' ', "\u{a0}");
+        // Where a cell is narrow the error stands below its value.
+        let whole = |text: String| text.replace("± ", "±\u{a0}");
         let shown = |found: Option<Reading>| found.map_or("–".to_owned(), |reading| whole(with_error(&reading, "")));
         let of = |measurand: Measurand| shown(self.colour.of(measurand));
         let figure = |of: fn(&Figures) -> Option<f64>| shown(self.colour.figure(of));

@@ -47,6 +47,14 @@ pub(super) fn memory(rows: u64, sources: u64) -> u64 {
     FluxTable::memory(rows, false) + rows * 4 * sources * bands * ROUNDS as u64
 }
 
+/// Batches of light paths of a map of a scene, at most, figures of colour counted.
+pub fn most_batches(scene: &Scene, options: &MapOptions) -> u64 {
+    let own = options.paths.div_ceil(LIGHT_BATCH as u64);
+    let sources = if options.figures { by_spectrum(scene).map_or(0, |sources| sources.len()) } else { 0 };
+    let bands = bands_of(BAND_NM).map_or(0, Bands::count);
+    own + (sources * bands * ROUNDS) as u64 * own.div_ceil(PART)
+}
+
 /// Checks that all lamps have spectra, and tells the scene by them.
 ///
 /// # Errors

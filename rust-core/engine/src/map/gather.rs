@@ -11,7 +11,7 @@ use super::{
     texels::{TexelChart, coordinates, resolution},
 };
 use crate::{
-    compile::{CompiledScene, transport, unfollowed},
+    compile::{CompiledScene, compile, transport, unfollowed},
     error::{Diagnostic, Error, Result},
     light::EmissionSampler,
     light_paths::{Batch, Channels, Collector, FixedSums, Job, Watch, trace_batches},
@@ -110,6 +110,13 @@ pub fn illumination_maps(
     watch: &mut Watch<'_>,
 ) -> Result<IlluminationMaps> {
     options.check()?;
+    if options.figures && !scene.settings.spectral {
+        // What figures tell of light by wavelength is of as many lux as light with wavelengths brings.
+        let mut spectral = scene.clone();
+        spectral.settings.spectral = true;
+        let compiled = compile(&spectral, Some(compiled), watch.cancel)?;
+        return illumination_maps(&spectral, &compiled, options, execution, watch);
+    }
     let start = Instant::now();
     let surfaces = chosen(scene, compiled, options)?;
     let mut of_colour = Vec::new();

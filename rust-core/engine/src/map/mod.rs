@@ -24,6 +24,7 @@ mod within_errors;
 pub use cells::{CellChart, corners};
 pub use divided::divided_meshes;
 pub use exr::write_map_exr;
+pub use figures::most_batches;
 pub use gather::{Chart, IlluminationMaps, SurfaceMap, illumination_maps};
 pub use options::{MOST_PATHS, MapOptions, TexelSize};
 pub use side::{PartColour, SideMap, Summary};
