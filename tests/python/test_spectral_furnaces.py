@@ -70,7 +70,6 @@ def test_glass_that_disperses_takes_no_light(abbe, roughness):
     assert_close(found, colour(lamp("D65")), errors)
 
 
-@pytest.mark.xfail(strict=True, reason="what is reflected has the index of the wavelength that goes on alone")
 def test_dispersing_glass_reflects_each_wavelength_by_its_own_index():
     """Fresnel's formula at each wavelength, straight on, where what passes is lost."""
     abbe, index = 5.0, 1.5
