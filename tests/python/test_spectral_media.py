@@ -1,4 +1,4 @@
-"""Media by wavelength under `spectral=True`: closed forms over the spectra of lamps, pictures by wavelength, furnaces, and greys without colour."""
+"""Media by wavelength under `spectral=True`: closed forms under lamps, pictures by wavelength, furnaces, and greys without colour."""
 
 import math
 
@@ -245,7 +245,7 @@ def test_cameras_in_tinted_glass_by_wavelength():
 
 
 def test_light_paths_from_lamps_in_tinted_glass():
-    """A floor under a lamp in a block of glass in haze, by paths that start in it and end at the camera: inverse squares, tint and haze of the ways."""
+    """A floor under a lamp in a block of glass in haze, by paths that start in it: inverse squares, tint and haze of the ways."""
     eye, target, view, radius, absorption = np.array([1.5, 0.5, 0.0]), np.array([0.6, -1.0, 0.0]), 20.0, 0.003, (0.02, 0.1, 0.3)
     scene = looking(eye, target, size=8, degrees=view)
     lamp_in(scene, "D65", radius=radius)
