@@ -2,7 +2,7 @@
 
 use super::{
     arguments::{EyeArguments, GridArguments},
-    measure::{figure, places, reading_json, spaced, triple},
+    reading::{figure, places, reading_json, spaced, triple},
 };
 use gonio::{
     Result,

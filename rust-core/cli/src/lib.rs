@@ -41,6 +41,7 @@ mod photometry;
 mod products;
 mod progress;
 mod radiance;
+mod reading;
 mod relight;
 mod render;
 mod report;

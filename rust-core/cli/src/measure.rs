@@ -10,6 +10,7 @@ use super::{
     messages::print,
     messages::tell,
     progress::Reporter,
+    reading::{figure, places, reading_json, spaced, triple},
     render::stage_options,
     spectrum::figures_json,
     stage::{Stage, light_model},
@@ -169,12 +170,6 @@ fn points(options: &MeasuringArguments, measurand: Measurand, axis: UpAxis) -> R
     options.at.iter().map(meter).collect()
 }
 
-pub(super) fn triple(name: &str, text: &str) -> Result<[f64; 3]> {
-    let numbers = text.split(',').map(|part| daylight::number(name, part)).collect::<Result<Vec<f64>>>()?;
-    let wrong = |_| Error::setting(name, format!("'{text}' was found, expected three numbers separated by commas"));
-    numbers.try_into().map_err(wrong)
-}
-
 /// The grids' pictures: under the name given, or with each prim's name before its ending. Each has its unit and its scale; `tell` names the files.
 pub(super) fn draw(
     grids: &[GridReading],
@@ -208,27 +203,6 @@ fn meter_line(meter: &MeterReading) -> String {
     let (name, figure) = (measurand.name(), figure(&meter.reading, places(measurand, [4, 2]), &spaced(measurand)));
     let note = meter.note().map_or(String::new(), |note| format!("; {note}"));
     format!("{}: {name} {figure} at {x:.3}, {y:.3}, {z:.3} m{note}", meter.meter.origin)
-}
-
-/// Places of a value and of its error: those that matter of figures of colour, else these.
-pub(super) fn places(measurand: Measurand, others: [usize; 2]) -> [usize; 2] {
-    match measurand {
-        Measurand::Cct => [1; 2],
-        Measurand::Duv => [5; 2],
-        Measurand::Ra | Measurand::Rf | Measurand::Rg => [2; 2],
-        _ => others,
-    }
-}
-
-/// A value of so many places with its standard error; in words where there is none.
-pub(super) fn figure(Reading { value, standard_error }: &Reading, [places, of_error]: [usize; 2], unit: &str) -> String {
-    if value.is_nan() { "not measured".into() } else { format!("{value:.places$}{unit} ± {standard_error:.of_error$}") }
-}
-
-/// The unit's sign with a blank before it; nothing where there is none.
-pub(super) fn spaced(measurand: Measurand) -> String {
-    let unit = measurand.unit();
-    if unit.is_empty() { String::new() } else { format!(" {unit}") }
 }
 
 /// The figures of a grid's points.
@@ -305,10 +279,6 @@ fn as_json(found: &Measurements, target: Option<f64>, of_stage: &[Diagnostic]) -
         "grids": found.grids.iter().map(grid).collect::<Vec<_>>(),
         "diagnostics": diagnostics_json(of_stage.iter().chain(&found.diagnostics)),
     })
-}
-
-pub(super) fn reading_json(reading: &Reading) -> Value {
-    json!({ "value": reading.value, "standard_error": reading.standard_error })
 }
 
 /// The figures of points together.

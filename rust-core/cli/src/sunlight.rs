@@ -4,9 +4,10 @@ use super::{
     arguments::SunlightOptions,
     daylight,
     file::{check_ending, check_targets},
-    measure::{author_grids, check_asked, draw, take_points, triple, watched},
+    measure::{author_grids, check_asked, draw, take_points, watched},
     messages::{print, tell},
     progress::Reporter,
+    reading::triple,
     render::stage_options,
     stage::Stage,
 };

@@ -7,9 +7,10 @@ use super::{
 use crate::{
     arguments::AnnualGlareOptions,
     file::{check_targets, print_path, put},
-    measure::{apply_settings, author_grids, triple, watched},
+    measure::{apply_settings, author_grids, watched},
     messages::{diagnostics_json, print, tell},
     progress::Reporter,
+    reading::triple,
     render::stage_options,
     stage::Stage,
 };

@@ -8,9 +8,10 @@ mod text;
 use super::{
     arguments::ViewOutOptions,
     file::check_targets,
-    measure::{author_grids, check_asked, take_points, triple, watched},
+    measure::{author_grids, check_asked, take_points, watched},
     messages::{print, tell},
     progress::Reporter,
+    reading::triple,
     render::stage_options,
     stage::Stage,
 };

@@ -1,8 +1,8 @@
 //! Eyes at the points of a grid: where they look, and what they get.
 
 use super::{
-    GridReading, Reading, Summary,
     reaching::Reaching,
+    reading::Reading,
     vector::{Vector, across, add, cross, scaled, unit},
 };
 use crate::{
@@ -102,26 +102,6 @@ fn mean(readings: impl Iterator<Item = Reading> + Clone) -> Reading {
     let value = known.clone().map(|reading| reading.value).sum::<f64>() * share;
     let standard_error = known.map(|reading| reading.standard_error.powi(2)).sum::<f64>().sqrt() * share;
     Reading { value, standard_error }
-}
-
-impl GridReading {
-    /// The readings of all that was measured, point by point, of eyes direction by direction.
-    pub fn readings(&self) -> Vec<Reading> {
-        let of_points = || self.points.iter().flatten().map(|(_, reading)| *reading).collect();
-        self.eyes.as_ref().map_or_else(of_points, |eyes| eyes.views.concat())
-    }
-
-    /// The melanopic light of figures of colour, as a grid of that shows it; none of other quantities.
-    pub fn melanopic(&self) -> Option<Self> {
-        let all = || self.colours.iter().map(|colour| colour.melanopic_edi().unwrap_or(Reading::UNKNOWN));
-        let eyes = self.eyes.as_ref().map(|eyes| EyeReadings::new(eyes.facings.clone(), all()));
-        let readings: Vec<Reading> = eyes.as_ref().map_or_else(|| all().collect(), EyeReadings::means);
-        let mut next = readings.iter().copied();
-        let points = self.points.iter().map(|point| point.and_then(|(position, _)| Some((position, next.next()?)))).collect();
-        let summary = Summary::new(readings.iter().copied());
-        let shown = Self { measurand: Measurand::MelanopicEdi, points, eyes, summary, colours: Vec::new(), ..self.clone() };
-        (!self.colours.is_empty()).then_some(shown)
-    }
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! How many of several readings reach a value, and for how many their errors leave it open.
 
-use super::{GridReading, Reading};
+use super::reading::Reading;
 
 /// Standard errors from a value within which a reading does not tell on which side of it it lies; verdicts have the same.
 const OPEN: f64 = 2.0;
@@ -41,13 +41,6 @@ impl Reaching {
 
     fn of_all(&self, count: usize) -> f64 {
         if self.count > 0 { count as f64 / self.count as f64 } else { 0.0 }
-    }
-}
-
-impl GridReading {
-    /// How many points reach a value, those with eyes by their mean over the directions.
-    pub fn reaching(&self, target: f64) -> Reaching {
-        Reaching::new(self.points.iter().flatten().map(|(_, reading)| *reading), target)
     }
 }
 
