@@ -51,7 +51,9 @@ pub(super) fn as_json(options: &GoniometerOptions, reading: &Reading, reduced: &
         }),
         "body_m": json!({ "min": reading.body[0], "max": reading.body[1] }),
         "chromaticity": colour::chromaticity(reading.escaped_rgb),
+        "chromaticity_1976": colour::uniform_chromaticity(reading.escaped_rgb),
         "colour_temperature_k": reading.colour_temperature(),
+        "duv": reading.temperature_and_duv().map(|[_, duv]| duv),
         "screen": reading.screen.as_ref().map(|screen| json!({
             "size": screen.screen.size,
             "illuminance_lx": screen.illuminance,

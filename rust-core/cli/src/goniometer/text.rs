@@ -92,7 +92,7 @@ fn opening(opening: &Opening) -> Vec<String> {
 fn colours(reading: &Reading) -> Option<String> {
     let rgb = reading.escaped_rgb;
     let [x, y] = colour::chromaticity(rgb).filter(|_| colour::is_coloured(rgb))?;
-    let kelvin = reading.colour_temperature().map_or(String::new(), |kelvin| format!(", {kelvin:.0} K"));
+    let kelvin = reading.temperature_and_duv().map_or(String::new(), |[kelvin, duv]| format!(", {kelvin:.0} K, Duv {duv:+.4}"));
     let varies = if reading.varies_in_colour() { "; it differs by direction, --csv tells how" } else { "" };
     Some(format!("colour: x {x:.4}, y {y:.4}{kelvin}{varies}"))
 }

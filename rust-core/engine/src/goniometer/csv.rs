@@ -5,16 +5,17 @@ use std::fmt::Write;
 
 impl Reading {
     /// One line a direction: C and γ in degrees, luminous intensity and its standard error in cd, tristimulus values in cd, chromaticity x and y,
-    /// and the colour temperature in K; these are empty where there is no light, or none of a black body's colour.
+    /// the colour temperature in K, Duv, and chromaticity u' and v'; these are empty where there is no light, or none of a black body's colour.
     pub fn csv(&self) -> String {
-        let mut out = String::from("c_deg,gamma_deg,intensity_cd,standard_error_cd,X_cd,Y_cd,Z_cd,x,y,colour_temperature_k\r\n");
+        let mut out = String::from("c_deg,gamma_deg,intensity_cd,standard_error_cd,X_cd,Y_cd,Z_cd,x,y,colour_temperature_k,duv,u_prime,v_prime\r\n");
         for (place, rgb) in self.rgb.iter().enumerate() {
             let ([c, gamma], [x, y, z]) = (self.direction(place), colour::tristimulus(*rgb));
             let (intensity, error) = (self.intensities[place], self.errors[place]);
             let chromaticity = colour::chromaticity(*rgb).map_or(",".to_owned(), |[x, y]| format!("{x:.5},{y:.5}"));
-            let kelvin = colour::colour_temperature(*rgb).map_or(String::new(), |kelvin| format!("{kelvin:.0}"));
+            let white = colour::colour_temperature(*rgb).map_or(",".to_owned(), |[kelvin, duv]| format!("{kelvin:.0},{duv:.5}"));
+            let uniform = colour::uniform_chromaticity(*rgb).map_or(",".to_owned(), |[u, v]| format!("{u:.5},{v:.5}"));
             // Writing to a string does not fail.
-            let _ = write!(out, "{c},{gamma},{intensity:.6},{error:.6},{x:.6},{y:.6},{z:.6},{chromaticity},{kelvin}\r\n");
+            let _ = write!(out, "{c},{gamma},{intensity:.6},{error:.6},{x:.6},{y:.6},{z:.6},{chromaticity},{white},{uniform}\r\n");
         }
         out
     }

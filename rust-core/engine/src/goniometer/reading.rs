@@ -114,6 +114,11 @@ impl Reading {
 
     /// Colour temperature in K of all that left; nothing where the light is white or of no black body's colour.
     pub fn colour_temperature(&self) -> Option<f64> {
+        self.temperature_and_duv().map(|[kelvin, _]| kelvin)
+    }
+
+    /// The same with Duv.
+    pub fn temperature_and_duv(&self) -> Option<[f64; 2]> {
         Some(self.escaped_rgb).filter(|rgb| colour::is_coloured(*rgb)).and_then(colour::colour_temperature)
     }
 
