@@ -58,7 +58,8 @@ impl LuminaireReading {
     /// Colour temperatures in K; nan where there is no light, or none of a black body's colour.
     #[getter]
     fn colour_temperatures(&self) -> Array {
-        let kelvin: Vec<f64> = self.reading.rgb.iter().map(|rgb| colour::colour_temperature(*rgb).map_or(f64::NAN, |[kelvin, _]| kelvin)).collect();
+        let kelvin: Vec<f64> =
+            self.reading.rgb.iter().map(|rgb| colour::colour_temperature(*rgb).map_or(f64::NAN, |[kelvin, _]| kelvin)).collect();
         self.rows(&kelvin)
     }
     /// Flux in lm that the sources send.

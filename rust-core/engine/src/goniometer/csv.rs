@@ -7,7 +7,8 @@ impl Reading {
     /// One line a direction: C and γ in degrees, luminous intensity and its standard error in cd, tristimulus values in cd, chromaticity x and y,
     /// the colour temperature in K, Duv, and chromaticity u' and v'; these are empty where there is no light, or none of a black body's colour.
     pub fn csv(&self) -> String {
-        let mut out = String::from("c_deg,gamma_deg,intensity_cd,standard_error_cd,X_cd,Y_cd,Z_cd,x,y,colour_temperature_k,duv,u_prime,v_prime\r\n");
+        let mut out =
+            String::from("c_deg,gamma_deg,intensity_cd,standard_error_cd,X_cd,Y_cd,Z_cd,x,y,colour_temperature_k,duv,u_prime,v_prime\r\n");
         for (place, rgb) in self.rgb.iter().enumerate() {
             let ([c, gamma], [x, y, z]) = (self.direction(place), colour::tristimulus(*rgb));
             let (intensity, error) = (self.intensities[place], self.errors[place]);
