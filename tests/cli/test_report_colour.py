@@ -87,3 +87,12 @@ def test_lamps_without_a_spectrum(run, tmp_path):
     text, reader = page(run, tmp_path, stage=second)
     assert re.search(r"no figures of colour beside them: /Bare.*spectrum", text)
     assert not any(table[0][0] == "place" for table in reader.tables)
+
+
+def test_a_lamp_of_a_colour_alone_has_no_rendering(run, tmp_path):
+    plain = STAGE.replace('gonio:grid:quantity = "ra"', 'gonio:grid:quantity = "cct"')
+    text, reader = page(run, tmp_path, spectrum="color3f inputs:color = (1, 0.8, 0.6)", stage=plain)
+    _, row = reader.table("place")
+    assert row[0].startswith("middle of /Table") and float(row[1].split()[0]) > 2000
+    assert row[3:] == ["–"] * 6
+    assert "TM-30 colour vectors" not in text

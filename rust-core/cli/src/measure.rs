@@ -300,7 +300,6 @@ fn summary_json(name: &str, measurand: Measurand, summary: &Summary) -> Map<Stri
 /// All that a spectrum says which a meter got, and the spectrum.
 pub(super) fn colour_json(colour: &ColourReading) -> Value {
     let mut all = colour.figures.as_ref().map(figures_json).unwrap_or_default();
-    colour.untold().iter().filter_map(|name| all.get_mut(*name).map(Value::take)).for_each(drop);
     let named = Measurand::OF_COLOUR.map(|measurand| (measurand.name(), colour.of(measurand)));
     let others = [("illuminance_lx", Some(colour.illuminance)), ("melanopic_edi_lx", colour.melanopic_edi())];
     all.extend(others.iter().map(|(name, reading)| ((*name).to_owned(), json!(reading.map(|reading| reading.value)))));

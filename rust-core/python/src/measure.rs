@@ -81,11 +81,6 @@ pub(crate) fn colour_described<'py>(py: Python<'py>, colour: &measure::ColourRea
         Some(figures) => figures_described(py, figures)?,
         None => PyDict::new(py),
     };
-    for name in colour.untold() {
-        if described.contains(name)? {
-            described.set_item(name, py.None())?;
-        }
-    }
     let errors = PyDict::new(py);
     for measurand in Measurand::OF_COLOUR {
         errors.set_item(measurand.name(), colour.of(measurand).map(|reading| reading.standard_error))?;

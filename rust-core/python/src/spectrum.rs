@@ -1,7 +1,7 @@
 //! Spectra of lamps and what they say.
 
 use crate::error::{exception, setting};
-use gonio_spectrum::{Figures, GlassIndex, MetalIndex, OPSINS, REC709_TO_REC2020, Spectrum, White, named, upsampling};
+use gonio_spectrum::{AlphaOpic, Figures, GlassIndex, MetalIndex, OPSINS, REC709_TO_REC2020, Spectrum, White, named, upsampling};
 use pyo3::{prelude::*, types::PyDict};
 
 /// The spectrum of a file's bytes, text of nm and power, IES TM-27 or TM-33: `name`, `wavelengths_nm`, `power` over its largest, and `notes` on the data.
@@ -108,26 +108,31 @@ pub(crate) fn figures_described<'py>(py: Python<'py>, figures: &Figures) -> PyRe
         ("v_prime", figures.uv[1]),
         ("peak_nm", figures.peak_nm),
         ("ler", figures.ler),
-        ("melanopic_der", figures.alpha_opic[4].der),
     ] {
         described.set_item(key, value)?;
     }
-    let receptors = PyDict::new(py);
-    for ((short, _), found) in OPSINS.iter().zip(&figures.alpha_opic) {
-        let receptor = PyDict::new(py);
-        receptor.set_item("elr_mw_per_lm", found.elr_mw_per_lm)?;
-        receptor.set_item("der", found.der)?;
-        receptors.set_item(*short, receptor)?;
-    }
-    described.set_item("alpha_opic", receptors)?;
+    described.set_item("melanopic_der", figures.melanopic_der())?;
+    described.set_item("alpha_opic", figures.alpha_opic.as_ref().map(|all| receptors(py, all)).transpose()?)?;
     of_white(&described, figures.white.as_ref())?;
     described.set_item("notes", &figures.notes)?;
     Ok(described)
 }
 
+/// What each receptor gets.
+fn receptors<'py>(py: Python<'py>, all: &[AlphaOpic; 5]) -> PyResult<Bound<'py, PyDict>> {
+    let receptors = PyDict::new(py);
+    for ((short, _), found) in OPSINS.iter().zip(all) {
+        let receptor = PyDict::new(py);
+        receptor.set_item("elr_mw_per_lm", found.elr_mw_per_lm)?;
+        receptor.set_item("der", found.der)?;
+        receptors.set_item(*short, receptor)?;
+    }
+    Ok(receptors)
+}
+
 /// Figures of white light.
 fn of_white(described: &Bound<'_, PyDict>, white: Option<&White>) -> PyResult<()> {
-    let rendering = white.map(|white| &white.rendering);
+    let rendering = white.and_then(|white| white.rendering.as_ref());
     let tm30 = white.and_then(|white| white.rendition.as_ref());
     described.set_item("cct", white.map(|white| white.cct))?;
     described.set_item("duv", white.map(|white| white.duv))?;

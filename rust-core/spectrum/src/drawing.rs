@@ -54,9 +54,12 @@ fn headline(figures: &Figures) -> String {
         return format!("x {:.4}, y {:.4}", figures.xy[0], figures.xy[1]);
     };
     let tm30 = white.rendition.as_ref().map_or(String::new(), |tm30| format!(", Rf {:.0}, Rg {:.0}", tm30.rf, tm30.rg));
-    let melanopic = figures.alpha_opic[4].der;
-    let doubt = if white.rendering.distance > TOLERANCE { " (outside of CIE 13.3's range)" } else { "" };
-    format!("{:.0} K, Duv {:+.4}, Ra {:.0}{doubt}{tm30}, melanopic DER {melanopic:.2}", white.cct, white.duv, white.rendering.ra)
+    let melanopic = figures.melanopic_der().map_or(String::new(), |der| format!(", melanopic DER {der:.2}"));
+    let rendering = white.rendering.as_ref().map_or(String::new(), |rendering| {
+        let doubt = if rendering.distance > TOLERANCE { " (outside of CIE 13.3's range)" } else { "" };
+        format!(", Ra {:.0}{doubt}", rendering.ra)
+    });
+    format!("{:.0} K, Duv {:+.4}{rendering}{tm30}{melanopic}", white.cct, white.duv)
 }
 
 /// Where a wavelength and a share of the largest power lie.

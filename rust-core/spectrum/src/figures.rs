@@ -21,8 +21,8 @@ pub struct Figures {
     pub peak_nm: f64,
     /// Luminous efficacy of radiation, lm/W, over the spectrum's own wavelengths.
     pub ler: f64,
-    /// What each receptor gets, in the order of [`crate::OPSINS`].
-    pub alpha_opic: [AlphaOpic; 5],
+    /// What each receptor gets, in the order of [`crate::OPSINS`]; a colour does not tell it.
+    pub alpha_opic: Option<[AlphaOpic; 5]>,
     /// What is defined for white light alone; `None` where the light is not.
     pub white: Option<White>,
     /// What a reader should know: of the data, and of figures that are undefined or outside their standard's range.
@@ -36,8 +36,8 @@ pub struct White {
     pub cct: f64,
     /// Signed distance from the blackbodies in the CIE 1960 diagram, positive above them (greenish).
     pub duv: f64,
-    /// CIE 13.3.
-    pub rendering: Rendering,
+    /// CIE 13.3; a colour does not tell it.
+    pub rendering: Option<Rendering>,
     /// TM-30-20.
     pub rendition: Option<Rendition>,
 }
@@ -55,6 +55,31 @@ fn efficacy(nodes: &[Node], xyz: [f64; 3]) -> f64 {
     EFFICACY * xyz[1] / power
 }
 
+impl Figures {
+    /// What of them holds where a colour stands for the spectrum.
+    pub fn of_colour(mut self) -> Self {
+        self.alpha_opic = None;
+        if let Some(white) = &mut self.white {
+            let told: Vec<String> = doubts(white).collect();
+            self.notes.retain(|note| !told.contains(note));
+            (white.rendering, white.rendition) = (None, None);
+        }
+        self
+    }
+
+    /// What melanopsin gets over what it gets of daylight of the same lx.
+    pub fn melanopic_der(&self) -> Option<f64> {
+        self.alpha_opic.map(|receptors| receptors[4].der)
+    }
+}
+
+impl White {
+    /// One of the special indices R1 to R15 of CIE 13.3, by its number.
+    pub fn special_index(&self, number: usize) -> Option<f64> {
+        self.rendering.as_ref()?.r.get(number.checked_sub(1)?).copied()
+    }
+}
+
 /// The figures of a spectrum.
 pub fn figures(spectrum: &Spectrum) -> Figures {
     let nodes = spectrum.nodes();
@@ -65,7 +90,7 @@ pub fn figures(spectrum: &Spectrum) -> Figures {
     let white = match cct([u, v]) {
         Some((cct, duv)) if duv.abs() <= LARGEST_DUV => {
             let kelvin = cct.min(DAYLIGHT[1]);
-            let rendering = rendering(&nodes, &rendering::samples(&nodes), kelvin);
+            let rendering = Some(rendering(&nodes, &rendering::samples(&nodes), kelvin));
             let within = rendition::within(&nodes);
             let white = White { cct, duv, rendering, rendition: rendition(&within, &rendition::samples(&within), kelvin) };
             notes.extend(doubts(&white));
@@ -87,7 +112,7 @@ pub fn figures(spectrum: &Spectrum) -> Figures {
         uv: [u, 1.5 * v],
         peak_nm: spectrum.wavelengths_nm[peak],
         ler: efficacy(&nodes, xyz),
-        alpha_opic: alpha_opic(&nodes),
+        alpha_opic: Some(alpha_opic(&nodes)),
         white,
         notes,
     }
@@ -95,8 +120,7 @@ pub fn figures(spectrum: &Spectrum) -> Figures {
 
 /// Where a white light's figures are outside of their standard's range.
 fn doubts(white: &White) -> impl Iterator<Item = String> {
-    let distance = white.rendering.distance;
-    let far = (distance > TOLERANCE).then(|| {
+    let far = white.rendering.as_ref().map(|rendering| rendering.distance).filter(|distance| *distance > TOLERANCE).map(|distance| {
         format!(
             "Ra and R1 to R15 are outside of CIE 13.3's range: {distance:.4} from the reference in the 1960 diagram, {TOLERANCE} at most"
         )

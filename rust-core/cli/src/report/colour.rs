@@ -100,10 +100,10 @@ impl Place {
             of(Measurand::Cct),
             self.colour.of(Measurand::Duv).map_or("–".to_owned(), |reading| whole(duv(reading))),
             of(Measurand::Ra),
-            figure(|figures| Some(figures.white.as_ref()?.rendering.r[8])),
+            figure(|figures| figures.white.as_ref()?.special_index(9)),
             of(Measurand::Rf),
             of(Measurand::Rg),
-            figure(|figures| Some(figures.alpha_opic[4].der)),
+            figure(Figures::melanopic_der),
             shown(self.colour.melanopic_edi()),
         ]
     }
@@ -132,7 +132,7 @@ fn middle(positions: &[[f64; 3]]) -> Option<usize> {
 
 /// Whether any of its lamps and surfaces that shine has a spectrum.
 fn has_spectra(scene: &Scene) -> bool {
-    let of_light = |light: &Light| light.spectrum.is_some();
+    let of_light = |light: &Light| light.lamp_spectrum().is_some();
     let of_surface = |material: &Material| material.spectrum.is_some() && material.shines();
     scene.lights.iter().any(of_light) || scene.materials.iter().any(of_surface)
 }

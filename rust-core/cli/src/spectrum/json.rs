@@ -1,7 +1,7 @@
 //! What a spectrum says, for machines.
 
 use super::Lamp;
-use gonio_spectrum::{CieObserver, Figures, HueBin, OPSINS, TOLERANCE};
+use gonio_spectrum::{AlphaOpic, CieObserver, Figures, HueBin, OPSINS, TOLERANCE};
 use serde_json::{Map, Value, json};
 
 /// Everything in one object; what is undefined is null.
@@ -23,12 +23,12 @@ pub(super) fn as_json(lamp: &Lamp) -> Value {
 /// All figures of a spectrum; what is undefined is null.
 pub(in super::super) fn figures_json(figures: &Figures) -> Map<String, Value> {
     let white = figures.white.as_ref();
-    let rendering = white.map(|white| &white.rendering);
+    let rendering = white.and_then(|white| white.rendering.as_ref());
     let tm30 = white.and_then(|white| white.rendition.as_ref());
-    let receptors = OPSINS.iter().zip(&figures.alpha_opic);
-    let alpha_opic: Map<String, Value> = receptors
-        .map(|((short, _), found)| ((*short).to_owned(), json!({ "elr_mw_per_lm": found.elr_mw_per_lm, "der": found.der })))
-        .collect();
+    let receptor = |((short, _), found): (&(&str, &str), &AlphaOpic)| {
+        ((*short).to_owned(), json!({ "elr_mw_per_lm": found.elr_mw_per_lm, "der": found.der }))
+    };
+    let alpha_opic = figures.alpha_opic.as_ref().map(|all| OPSINS.iter().zip(all).map(receptor).collect::<Map<String, Value>>());
     let all = [
         ("peak_nm", json!(figures.peak_nm)),
         ("x", json!(figures.xy[0])),
@@ -45,8 +45,8 @@ pub(in super::super) fn figures_json(figures: &Figures) -> Map<String, Value> {
         ("rg", json!(tm30.map(|tm30| tm30.rg))),
         ("rf_samples", json!(tm30.map(|tm30| &tm30.samples))),
         ("hue_bins", json!(tm30.map(|tm30| tm30.bins.iter().map(bin_json).collect::<Vec<_>>()))),
-        ("melanopic_der", json!(figures.alpha_opic[4].der)),
-        ("alpha_opic", Value::Object(alpha_opic)),
+        ("melanopic_der", json!(figures.melanopic_der())),
+        ("alpha_opic", json!(alpha_opic)),
         ("ler", json!(figures.ler)),
         ("notes", json!(figures.notes)),
     ];

@@ -24,13 +24,10 @@ pub(super) fn as_text(lamp: &Lamp) -> Vec<String> {
         None => lines.push("CCT, Duv, Ra, Rf, Rg: undefined".to_owned()),
     }
     lines.push(format!("luminous efficacy of radiation: {:.1} lm/W within {first} to {last} nm", figures.ler));
-    let melanopic = figures.alpha_opic[4];
-    lines.push(format!(
-        "melanopic DER: {:.3} (CIE S 026), so 100 lx are {:.1} lx of melanopic equivalent daylight (EDI)",
-        melanopic.der,
-        100.0 * melanopic.der
-    ));
-    let receptors = OPSINS.iter().zip(&figures.alpha_opic);
+    lines.extend(figures.melanopic_der().map(|der| {
+        format!("melanopic DER: {der:.3} (CIE S 026), so 100 lx are {:.1} lx of melanopic equivalent daylight (EDI)", 100.0 * der)
+    }));
+    let receptors = OPSINS.iter().zip(figures.alpha_opic.iter().flatten());
     let receptors = receptors.map(|((_, name), found)| format!("{name} {:.4} mW/lm (DER {:.3})", found.elr_mw_per_lm, found.der));
     lines.push(format!("alpha-opic efficacies: {}", receptors.collect::<Vec<_>>().join(", ")));
     lines.extend(figures.notes.iter().map(|note| format!("note: {note}")));
@@ -39,11 +36,11 @@ pub(super) fn as_text(lamp: &Lamp) -> Vec<String> {
 }
 
 fn white_lines(white: &White) -> Vec<String> {
-    let mut lines = vec![
-        format!("CCT: {:.0} K, Duv {:+.4}", white.cct, white.duv),
-        format!("CRI (CIE 13.3): Ra {}", marked(&white.rendering)),
-        format!("  {}", white.rendering.r.iter().enumerate().map(|(k, r)| format!("R{} {r:.0}", k + 1)).collect::<Vec<_>>().join("  ")),
-    ];
+    let mut lines = vec![format!("CCT: {:.0} K, Duv {:+.4}", white.cct, white.duv)];
+    if let Some(rendering) = &white.rendering {
+        let special: Vec<String> = rendering.r.iter().enumerate().map(|(k, r)| format!("R{} {r:.0}", k + 1)).collect();
+        lines.extend([format!("CRI (CIE 13.3): Ra {}", marked(rendering)), format!("  {}", special.join("  "))]);
+    }
     match &white.rendition {
         Some(tm30) => lines.extend(tm30_lines(tm30)),
         None => lines.push("TM-30-20: undefined".to_owned()),
@@ -84,16 +81,16 @@ pub(super) fn as_table(lamps: &[Lamp]) -> Vec<String> {
         let tm30 = white.and_then(|white| white.rendition.as_ref());
         let cell = |text: Option<String>| text.unwrap_or_else(|| "–".to_owned());
         lines.push(format!(
-            "{name:<width$} {:>7.4} {:>7.4} {:>7} {:>8} {:>6} {:>5} {:>6} {:>6} {:>8.3} {:>7.1}",
+            "{name:<width$} {:>7.4} {:>7.4} {:>7} {:>8} {:>6} {:>5} {:>6} {:>6} {:>8} {:>7.1}",
             figures.xy[0],
             figures.xy[1],
             cell(white.map(|white| format!("{:.0}", white.cct))),
             cell(white.map(|white| format!("{:+.4}", white.duv))),
-            cell(white.map(|white| marked(&white.rendering))),
-            cell(white.map(|white| format!("{:.0}", white.rendering.r[8]))),
+            cell(white.and_then(|white| white.rendering.as_ref()).map(marked)),
+            cell(white.and_then(|white| white.special_index(9)).map(|r9| format!("{r9:.0}"))),
             cell(tm30.map(|tm30| format!("{:.1}", tm30.rf))),
             cell(tm30.map(|tm30| format!("{:.1}", tm30.rg))),
-            figures.alpha_opic[4].der,
+            cell(figures.melanopic_der().map(|der| format!("{der:.3}"))),
             figures.ler,
         ));
     }

@@ -120,7 +120,7 @@ fn mutated_files_do_no_harm() {
         }
         if let Ok(lamp) = read(&bytes, "lamp") {
             let found = figures(&lamp);
-            let receptors = found.alpha_opic.map(|opsin| opsin.der);
+            let receptors = found.alpha_opic.expect("receptors").map(|opsin| opsin.der);
             assert!(found.xy.iter().chain(&receptors).chain([&found.ler]).all(|figure| figure.is_finite()), "{found:?}");
             assert!(!spectrum_drawing(&lamp, &found).contains("NaN"));
         }

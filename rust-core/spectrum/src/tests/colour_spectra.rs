@@ -36,7 +36,7 @@ fn colours_of_the_d_series_have_its_illuminants() {
         let [found, own] = [figures(&found), figures(&own)];
         let cct = |figures: &crate::Figures| figures.white.as_ref().expect("white").cct;
         assert!((cct(&found) / cct(&own) - 1.0).abs() < 1e-3, "{name}: {} K, expected {}", cct(&found), cct(&own));
-        for (found, own) in found.alpha_opic.iter().zip(&own.alpha_opic) {
+        for (found, own) in found.alpha_opic.iter().flatten().zip(own.alpha_opic.iter().flatten()) {
             assert!((found.der - own.der).abs() < 3e-4, "{name}: {}, expected {}", found.der, own.der);
         }
     }

@@ -3,7 +3,7 @@
 use super::{Reading, chromaticity};
 use crate::scene::{Geometry, LampSpectrum, Scene};
 use gonio_formats::gldf::ProductColour;
-use gonio_spectrum::{OPSINS, Spectrum, figures};
+use gonio_spectrum::{Spectrum, figures};
 use std::sync::Arc;
 
 /// The spectra of all that shines, each once; `None` is one that is not known.
@@ -51,13 +51,12 @@ fn colour_of_light(reading: &Reading) -> ProductColour {
 
 fn colour_of(spectrum: &Spectrum) -> ProductColour {
     let found = figures(spectrum);
-    let melanopic = OPSINS.iter().position(|(short, _)| *short == "mel").map(|place| found.alpha_opic[place].der);
     let white = found.white.as_ref();
     ProductColour {
         temperature: white.map(|white| white.cct),
-        rendering: white.map(|white| white.rendering.ra),
+        rendering: white.and_then(|white| white.rendering.as_ref()).map(|rendering| rendering.ra),
         chromaticity: Some(found.xy),
         rendition: white.and_then(|white| white.rendition.as_ref()).map(|rendition| [rendition.rf, rendition.rg]),
-        melanopic,
+        melanopic: found.melanopic_der(),
     }
 }

@@ -76,7 +76,10 @@ pub(in super::super) fn colours(
     let spectra = without_absent(sources.into_iter().map(|source| source.spectrum).collect(), &mut values);
     let mixture = Arc::new(Mixture::new(bands, &spectra));
     let by_colours = is_by_colours(scene);
-    let reading = |rounds: &Vec<_>| Arc::new(ColourReading::of_rounds(&mixture, rounds).told_by_colours(by_colours));
+    let reading = |rounds: &Vec<_>| {
+        let found = ColourReading::of_rounds(&mixture, rounds);
+        Arc::new(if by_colours { found.of_colours() } else { found })
+    };
     let readings: Vec<Arc<ColourReading>> = values.iter().map(reading).collect();
     let readings = of_probe.into_iter().map(|place| readings[place].clone()).collect();
     let first = sweep.first.ok_or_else(|| Error::Internal("no band of wavelengths was measured".to_owned()))?;

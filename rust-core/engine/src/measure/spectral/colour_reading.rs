@@ -16,12 +16,7 @@ pub struct ColourReading {
     pub figures: Option<Figures>,
     /// The same of all rounds but one, for each.
     without: Vec<Figures>,
-    /// Whether colours stand for spectra of lamps, which tell nothing of colour rendering and of the eye's clock.
-    by_colours: bool,
 }
-
-/// What a lamp's colour does not tell, as figures are called.
-const UNTOLD: [&str; 8] = ["ra", "ra_in_range", "r", "rf", "rg", "hue_bins", "melanopic_der", "alpha_opic"];
 
 impl ColourReading {
     /// Of independent rounds, each by source its lx in each band.
@@ -44,18 +39,14 @@ impl ColourReading {
             without: powers.iter().filter_map(|round| said(&all_but(round))).collect(),
             spectrum,
             mixture: mixture.clone(),
-            by_colours: false,
         }
     }
 
-    /// The same where colours stand for spectra of lamps, if they do.
-    pub(super) fn told_by_colours(self, by_colours: bool) -> Self {
-        Self { by_colours, ..self }
-    }
-
-    /// Names of the figures that are not known, as colours stand for spectra of lamps.
-    pub fn untold(&self) -> &'static [&'static str] {
-        if self.by_colours { &UNTOLD } else { &[] }
+    /// The same where colours stand for spectra of lamps: without the figures that these alone tell.
+    pub(super) fn of_colours(mut self) -> Self {
+        self.figures = self.figures.map(Figures::of_colour);
+        self.without = self.without.into_iter().map(Figures::of_colour).collect();
+        self
     }
 
     /// The wavelengths of the spectrum, nm: the points of the sources' spectra.
@@ -82,8 +73,7 @@ impl ColourReading {
             match measurand {
                 Measurand::Cct => Some(white.cct),
                 Measurand::Duv => Some(white.duv),
-                _ if self.by_colours => None,
-                Measurand::Ra => Some(white.rendering.ra),
+                Measurand::Ra => white.rendering.as_ref().map(|rendering| rendering.ra),
                 Measurand::Rf => rendition.map(|rendition| rendition.rf),
                 Measurand::Rg => rendition.map(|rendition| rendition.rg),
                 _ => None,
@@ -109,20 +99,18 @@ impl ColourReading {
 
     /// The same of so many lx of light of this spectrum, which were measured apart.
     pub(crate) fn melanopic_of(&self, light: &Reading) -> Option<Reading> {
-        let ratio = self.figure(|figures| (!self.by_colours).then_some(figures.alpha_opic[4].der))?;
+        let ratio = self.figure(Figures::melanopic_der)?;
         let [of_light, of_ratio] = [ratio.value * light.standard_error, light.value * ratio.standard_error];
         Some(Reading { value: ratio.value * light.value, standard_error: of_light.hypot(of_ratio) })
     }
 
     /// The spectrum beside TM-30's colour vector graphic (SVG), under a name; none where there is no light, or it is not known.
     pub fn drawing(&self, name: &str) -> Option<String> {
-        if self.by_colours {
-            return None;
-        }
+        let figures = self.figures.as_ref().filter(|figures| figures.alpha_opic.is_some())?;
         let power: Vec<f64> = self.spectrum.iter().map(|reading| reading.value).collect();
         let mut spectrum = self.mixture.spectrum(&power)?;
         name.clone_into(&mut spectrum.name);
-        Some(spectrum_drawing(&spectrum, self.figures.as_ref()?))
+        Some(spectrum_drawing(&spectrum, figures))
     }
 
     /// The figures in a line of words.
