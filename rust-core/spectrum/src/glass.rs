@@ -3,6 +3,8 @@
 mod formula;
 
 pub(crate) use formula::Formula;
+
+use crate::index::{increasing, nanometres, plain};
 use gonio_formats::FormatError;
 
 /// The wavelengths that an index must know, nm: from the mercury line g to the cadmium line C', within which measurements by spectral lines lie.
@@ -87,9 +89,7 @@ impl GlassIndex {
         if let Some(bad) = n.iter().find(|value| !(POSSIBLE[0]..=POSSIBLE[1]).contains(*value)) {
             return Err(FormatError::whole(format!("an index of {bad}, expected {} to {}", POSSIBLE[0], POSSIBLE[1])));
         }
-        if let Some(pair) = wavelengths_nm.windows(2).find(|pair| pair[0].partial_cmp(&pair[1]) != Some(std::cmp::Ordering::Less)) {
-            return Err(FormatError::whole(format!("{} nm after {} nm, expected increasing wavelengths", pair[1], pair[0])));
-        }
+        increasing(&wavelengths_nm)?;
         let mut made = Self { name: name.to_owned(), notes: Vec::new(), wavelengths_nm, n };
         made.check_reach([made.wavelengths_nm[0], made.wavelengths_nm[count - 1]], "its ends are held")?;
         Ok(made)
@@ -140,7 +140,6 @@ impl GlassIndex {
 
 /// The glass or liquid of a name: a set (`N-BK7`, `SiO2-Malitson`) or a word (`water`), in any letters. `None` where there is none.
 pub fn glass(name: &str) -> Option<GlassIndex> {
-    let plain = |text: &str| text.chars().filter(char::is_ascii_alphanumeric).collect::<String>().to_ascii_uppercase();
     let asked = plain(name);
     let meant = WORDS.iter().find(|(word, _)| *word == asked).map_or(asked, |(_, set)| plain(set));
     let row = rows().find(|row| plain(row[0]) == meant)?;
@@ -164,9 +163,4 @@ pub fn glass_sets() -> Vec<&'static str> {
 /// The cells of the table's rows.
 fn rows() -> impl Iterator<Item = [&'static str; 5]> {
     SETS.lines().skip(1).filter_map(|line| line.split(',').collect::<Vec<_>>().try_into().ok())
-}
-
-/// Micrometres as nanometres, without the noise of the product.
-pub(crate) fn nanometres(um: f64) -> f64 {
-    (um * 1e7).round() / 1e4
 }

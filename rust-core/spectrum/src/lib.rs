@@ -24,6 +24,7 @@ mod drawing;
 mod figures;
 mod glass;
 mod illuminant;
+mod index;
 mod integral;
 mod metal;
 mod mixture;

@@ -1,6 +1,11 @@
 //! Metals by their complex index of refraction: sets by name, files, and what they look like as colours.
 
-use crate::{integral::Integral, table::Table, white};
+use crate::{
+    index::{increasing, plain},
+    integral::Integral,
+    table::Table,
+    white,
+};
 use gonio_formats::FormatError;
 use std::sync::LazyLock;
 
@@ -97,9 +102,7 @@ impl MetalIndex {
         if let Some(bad) = n.iter().chain(&k).find(|value| !(0.0..=LARGEST).contains(*value)) {
             return Err(FormatError::whole(format!("an index or extinction of {bad}, expected 0 to {LARGEST}")));
         }
-        if let Some(pair) = wavelengths_nm.windows(2).find(|pair| pair[0].partial_cmp(&pair[1]) != Some(std::cmp::Ordering::Less)) {
-            return Err(FormatError::whole(format!("{} nm after {} nm, expected increasing wavelengths", pair[1], pair[0])));
-        }
+        increasing(&wavelengths_nm)?;
         let [first, last] = [wavelengths_nm[0], wavelengths_nm[count - 1]];
         if !(first > 0.0 && first <= WANTED[0] && last >= WANTED[1]) {
             let [from, to] = WANTED;
@@ -172,7 +175,6 @@ fn channel_index(r: f64, edge: f64) -> [f64; 2] {
 
 /// The metal of a name: a symbol (`Au`), a word (`gold`), or a set (`Au-McPeak`), in any letters. `None` where there is none.
 pub fn metal(name: &str) -> Option<MetalIndex> {
-    let plain = |text: &str| text.chars().filter(char::is_ascii_alphanumeric).collect::<String>().to_ascii_uppercase();
     let asked = plain(name);
     let symbol = WORDS.iter().find(|(word, _)| *word == asked).map_or(asked.clone(), |(_, symbol)| plain(symbol));
     let is_meant = |set: &&str| plain(set) == asked || set.split('-').next().is_some_and(|of| plain(of) == symbol);

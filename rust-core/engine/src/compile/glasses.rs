@@ -1,66 +1,49 @@
 //! Glasses that materials name: their indices as kernels want them, with and without wavelengths.
 
-use super::materials::Parameters;
+use super::{indices::Indices, materials::Parameters};
 use crate::{
     bsdf::parameter,
     error::Diagnostic,
     scene::{Closure, GlassIndex, Input, Material, Model, Scene},
 };
+use gonio_formats::FormatError;
 use gonio_spectrum::triples;
-use std::sync::Arc;
 
-/// The glasses of a scene, each once however many materials are of it.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Glasses(Vec<CompiledGlass>);
+/// The glasses of a scene.
+#[derive(Clone, Debug)]
+pub(super) struct Glasses(Indices<GlassIndex, CompiledGlass>);
 
 #[derive(Clone, Debug)]
 struct CompiledGlass {
-    source: Arc<GlassIndex>,
     index: gonio_spectrum::GlassIndex,
     /// By rotation of wavelengths: the index over the stated one.
     values: Vec<[f32; 3]>,
 }
 
 impl CompiledGlass {
-    fn new(source: &Arc<GlassIndex>, index: gonio_spectrum::GlassIndex) -> Self {
+    fn new(source: &GlassIndex) -> Result<Self, FormatError> {
+        let GlassIndex { name, wavelengths_nm, n } = source.clone();
+        let index = gonio_spectrum::GlassIndex::new(&name, wavelengths_nm, n)?;
         let stated = index.stated();
-        Self { source: source.clone(), values: triples().filter(|nm| index.at(nm) / stated), index }
+        Ok(Self { values: triples().filter(|nm| index.at(nm) / stated), index })
     }
 }
 
 impl Glasses {
     /// Those of a scene; what is no index is told, and the material keeps its own.
     pub(super) fn of(scene: &Scene, diagnostics: &mut Vec<Diagnostic>) -> Self {
-        let mut all = Self::default();
-        for material in &scene.materials {
-            for glass in material.closures.iter().filter_map(|closure| closure.glass.as_ref()) {
-                if all.find(glass).is_some() {
-                    continue;
-                }
-                match gonio_spectrum::GlassIndex::new(&glass.name, glass.wavelengths_nm.clone(), glass.n.clone()) {
-                    Ok(index) => all.0.push(CompiledGlass::new(glass, index)),
-                    Err(error) => {
-                        let told = format!("its glass cannot be used, its own index stands in for it: {}", error.problem);
-                        diagnostics.push(Diagnostic::warning(&material.origin, told));
-                    }
-                }
-            }
-        }
-        all
-    }
-
-    fn find(&self, glass: &Arc<GlassIndex>) -> Option<usize> {
-        self.0.iter().position(|known| Arc::ptr_eq(&known.source, glass) || known.source == *glass)
+        let instead = "glass cannot be used, its own index stands in for it";
+        Self(Indices::of(scene, |closure| closure.glass.as_ref(), CompiledGlass::new, instead, diagnostics))
     }
 
     /// The row of a closure's glass.
     pub(super) fn row_of(&self, closure: &Closure) -> Option<u32> {
-        closure.glass.as_ref().and_then(|glass| self.find(glass)).map(|row| row as u32)
+        self.0.row_of(closure)
     }
 
     /// Gives a closure the stated index of the glass of a row.
     pub(super) fn set(&self, row: u32, closure: &Closure, parameters: &mut Parameters) {
-        parameters.fix(parameter::IOR, &[self.0[row as usize].index.stated() as f32]);
+        parameters.fix(parameter::IOR, &[self.0.row(row).index.stated() as f32]);
         parameters.fix(parameter::TRANSMISSION_DISPERSION, &[0.0]);
         if closure.input("transmission_weight").is_none() {
             parameters.fix(parameter::TRANSMISSION_WEIGHT, &[1.0]);
@@ -69,13 +52,13 @@ impl Glasses {
 
     /// By glass and rotation of wavelengths: quads of the index over the stated one.
     pub(super) fn by_rotation(&self) -> Vec<f32> {
-        self.0.iter().flat_map(|glass| &glass.values).flat_map(|[a, b, c]| [*a, *b, *c, 0.0]).collect()
+        self.0.all().flat_map(|glass| &glass.values).flat_map(|[a, b, c]| [*a, *b, *c, 0.0]).collect()
     }
 
     /// The same by glass and wavelength in nm, all components alike.
     pub(super) fn at(&self, wavelengths_nm: &[f64]) -> Vec<f32> {
         let of = |glass: &CompiledGlass, nm: f64| [(glass.index.at(nm) / glass.index.stated()) as f32; 4];
-        self.0.iter().flat_map(|glass| wavelengths_nm.iter().flat_map(move |nm| of(glass, *nm))).collect()
+        self.0.all().flat_map(|glass| wavelengths_nm.iter().flat_map(move |nm| of(glass, *nm))).collect()
     }
 }
 

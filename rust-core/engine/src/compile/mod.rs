@@ -20,6 +20,7 @@ mod filters;
 mod geometry;
 mod glasses;
 mod goniograms;
+mod indices;
 mod instances;
 mod kept;
 mod lamps_in_media;

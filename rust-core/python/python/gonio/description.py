@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import sys
 from array import array
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -75,9 +75,7 @@ def material(name: str, parameters: Mapping[str, Any]) -> dict[str, Any]:
 
 def lamp_spectrum(spectrum: Any) -> dict[str, Any]:
     """What something shines with, as descriptions have it."""
-    if isinstance(spectrum, (str, PathLike)):
-        path = Path(spectrum)
-        spectrum = read_spectrum(path.read_bytes(), path.name) if path.is_file() else illuminant(str(spectrum))
+    spectrum = _file_or_name(spectrum, read_spectrum, illuminant)
     if not isinstance(spectrum, Mapping):
         try:
             wavelengths, power = spectrum
@@ -90,22 +88,27 @@ def lamp_spectrum(spectrum: Any) -> dict[str, Any]:
 
 def metal_index(of: Any) -> dict[str, Any]:
     """A metal as descriptions have it."""
-    if isinstance(of, (str, PathLike)):
-        path = Path(of)
-        of = read_metal(path.read_bytes(), path.name) if path.is_file() else metal(str(of))
-    if not isinstance(of, Mapping):
-        raise _setting_error("metal", "expected a name, a file, or what `gonio.metal` gives")
-    return {key: of[key] for key in ("name", "wavelengths_nm", "n", "k") if key in of}
+    return _index("metal", _file_or_name(of, read_metal, metal), ("name", "wavelengths_nm", "n", "k"))
 
 
 def glass_index(of: Any) -> dict[str, Any]:
     """A glass or liquid as descriptions have it."""
-    if isinstance(of, (str, PathLike)):
-        path = Path(of)
-        of = read_glass(path.read_bytes(), path.name) if path.is_file() else glass(str(of))
+    return _index("glass", _file_or_name(of, read_glass, glass), ("name", "wavelengths_nm", "n"))
+
+
+def _index(kind: str, of: Any, parts: Sequence[str]) -> dict[str, Any]:
+    """The parts of an index of refraction."""
     if not isinstance(of, Mapping):
-        raise _setting_error("glass", "expected a name, a file, or what `gonio.glass` gives")
-    return {key: of[key] for key in ("name", "wavelengths_nm", "n") if key in of}
+        raise _setting_error(kind, f"expected a name, a file, or what `gonio.{kind}` gives")
+    return {key: of[key] for key in parts if key in of}
+
+
+def _file_or_name(of: Any, read: Callable[[bytes, str], Any], named: Callable[[str], Any]) -> Any:
+    """What a file or a name stands for; all else as it is."""
+    if not isinstance(of, (str, PathLike)):
+        return of
+    path = Path(of)
+    return read(path.read_bytes(), path.name) if path.is_file() else named(str(of))
 
 
 def _input(name: str, value: Any, nodes: list[dict[str, Any]]) -> dict[str, Any]:

@@ -1,14 +1,14 @@
 //! Files of an index of refraction: rows of wavelength and n, or the refractiveindex.info database's YAML, whose formulas are computed.
 
 use super::{LONGEST, cells, decoded};
-use crate::glass::{Formula, GlassIndex, POSSIBLE, nanometres};
+use crate::{
+    glass::{Formula, GlassIndex, POSSIBLE},
+    index::{MICROMETRES, nanometres, to_nanometres},
+};
 use gonio_formats::{
     FormatError,
     spectrum::{MOST, quoted},
 };
-
-/// Wavelengths below this are micrometres: no light that is seen has so few nm.
-const MICROMETRES: f64 = 50.0;
 
 /// What the lines of a file are about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -135,9 +135,7 @@ impl Reading {
                 return Err(FormatError::whole(format!("no index of refraction, expected {expected}")));
             }
             None => {
-                if wavelengths.iter().all(|wavelength| *wavelength < MICROMETRES) {
-                    wavelengths.iter_mut().for_each(|wavelength| *wavelength = nanometres(*wavelength));
-                }
+                to_nanometres(&mut wavelengths);
                 let (wavelengths, n) = seen(&wavelengths, &n);
                 GlassIndex::new(name, wavelengths, n)?
             }

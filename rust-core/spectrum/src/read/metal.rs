@@ -1,14 +1,11 @@
 //! Files of a metal's n and k: rows of wavelength, n and k, or a block of n and one of k, as the refractiveindex.info database gives them.
 
 use super::{LONGEST, cells, decoded};
-use crate::{metal::MetalIndex, table::linear};
+use crate::{index::to_nanometres, metal::MetalIndex, table::linear};
 use gonio_formats::{
     FormatError,
     spectrum::{MOST, quoted},
 };
-
-/// Wavelengths below this are micrometres: no light that is seen has so few nm.
-const MICROMETRES: f64 = 50.0;
 
 /// Wavelengths and numbers.
 type Curve = [Vec<f64>; 2];
@@ -47,9 +44,7 @@ pub fn read_metal(bytes: &[u8], name: &str) -> Result<MetalIndex, FormatError> {
         return Err(FormatError::whole("no extinction k: expected rows of a wavelength, n and k, of a metal"));
     }
     let k = if at == wavelengths { k } else { wavelengths.iter().map(|nm| linear(&at, &k, *nm)).collect() };
-    if wavelengths.iter().all(|nm| *nm < MICROMETRES) {
-        wavelengths.iter_mut().for_each(|nm| *nm = (*nm * 1e7).round() / 1e4);
-    }
+    to_nanometres(&mut wavelengths);
     MetalIndex::new(name, wavelengths, n, k)
 }
 
