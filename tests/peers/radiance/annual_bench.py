@@ -7,19 +7,19 @@ engine's errors are against many paths of its own, so that what differs between 
 import argparse
 import json
 import os
-import resource
-import subprocess
 import sys
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
 
-sys.path[:0] = [str(Path(__file__).resolve().parents[2] / "validate")]
+TESTS = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(TESTS / "validate"), str(TESTS / "shared")]
 
-import annual_office  # noqa: E402
 import environments  # noqa: E402
+import measured_by  # noqa: E402
 import numpy  # noqa: E402
+import radiance_office  # noqa: E402
 
 GRID = ("--grid", "/Floor", "--height", "0.8", "--spacing", "0.45")
 # Hours in which a point has less are left out: their relative errors say nothing.
@@ -48,36 +48,29 @@ class Bench:
     def __init__(self, folder: Path, weather: Path | None):
         self.folder = folder
         python = Path(os.environ.get("GONIO_PEER_RADIANCE") or environments.python_of("radiance"))
-        found = subprocess.run([str(python), "-c", "import pyradiance; print(pyradiance.__path__[0])"], capture_output=True, text=True, check=True)
-        package = Path(found.stdout.strip())
-        self.environment = {**os.environ, "PATH": f"{package / 'bin'}:{os.environ['PATH']}", "RAYPATH": f".:{package / 'lib'}"}
+        self.environment = measured_by.environment(measured_by.packaged(python))
         self.year = weather.resolve() if weather else folder / "year.wea"
         if not weather:
-            self.year.write_text(annual_office.weather())
-        (folder / "office.usda").write_text(annual_office.stage())
-        (folder / "room.rad").write_text(annual_office.room())
-        (folder / "sky.rad").write_text(annual_office.SKY)
-        (folder / "sky4.rad").write_text(annual_office.SKY.replace("h=r2", f"h=r{FINE_DIVISION}"))
-        self.points = b""
+            self.year.write_text(radiance_office.weather())
+        (folder / "office.usda").write_text(radiance_office.stage())
+        (folder / "room.rad").write_text(radiance_office.room())
+        (folder / "sky.rad").write_text(radiance_office.SKY)
+        (folder / "sky4.rad").write_text(radiance_office.SKY.replace("h=r2", f"h=r{FINE_DIVISION}"))
+        self.points = ""
         self.count = 0
 
-    def spent(self, command: list[str] | str, given: bytes = b"") -> tuple[float, bytes]:
-        """Processor seconds of a command and all that it starts, and what it printed."""
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        done = subprocess.run(
-            command, shell=isinstance(command, str), cwd=self.folder, env=self.environment, input=given, capture_output=True, check=False
-        )
-        if done.returncode:
-            raise SystemExit(f"{command}: {done.stderr.decode()[-400:]}")
-        after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, done.stdout
+    def spent(self, command: list[str] | str, given: str = "") -> tuple[float, bytes]:
+        """Processor seconds of a command, or of a line of a shell, and of all that it starts, and what it printed."""
+        words = ["sh", "-c", command] if isinstance(command, str) else command
+        said, seconds = measured_by.run(words, self.folder, self.environment, given)
+        return seconds, said
 
     def gonio(self, paths: int, seed: int) -> tuple[float, numpy.ndarray]:
         """The whole command, and lux by points and hours."""
         command = [sys.executable, "-m", "gonio", "annual", "office.usda", "--weather", str(self.year), *GRID, "-m", str(DIVISION)]
         seconds, said = self.spent([*command, "-p", str(paths), "--seed", str(seed), "-j", "1", "-q", "--json", "-o", "out"])
         places = [point["position_m"] for point in json.loads(said)["grids"][0]["points"]]
-        self.points = "".join("{} {} {} 0 0 1\n".format(*place) for place in places).encode()
+        self.points = "".join("{} {} {} 0 0 1\n".format(*place) for place in places)
         self.count = len(places)
         (series,) = (self.folder / "out").glob("*_total.npy")
         return seconds, numpy.load(series)

@@ -87,20 +87,25 @@ def packaged(python: Path) -> Path:
     return Path(said.decode().strip()).parent
 
 
+def environment(package: Path) -> dict[str, str]:
+    """In which Radiance's programs of a package find one another and their files."""
+    path = f"{package / 'bin'}{os.pathsep}{os.environ['PATH']}"
+    return {**os.environ, "PATH": path, "RAYPATH": f".{os.pathsep}{package / 'lib'}"}
+
+
 def radiance(python: Path, folder: Path) -> Radiance:
     """Lays out the rooms for Radiance in a folder: LDT to IES by gonio, `ies2rad`, `oconv`."""
     package = packaged(python)
     programs = package / "bin"
-    path = f"{programs}{os.pathsep}{os.environ['PATH']}"
-    environment = {**os.environ, "PATH": path, "RAYPATH": f".{os.pathsep}{package / 'lib'}"}
+    found = environment(package)
     run([gonio(), "photometry", two_rooms.LUMINAIRE, "--convert", folder / "luminaire.ies"], folder)
-    _, luminaire = run([programs / "ies2rad", "-dm", "-t", "default", "luminaire.ies"], folder, environment)
+    _, luminaire = run([programs / "ies2rad", "-dm", "-t", "default", "luminaire.ies"], folder, found)
     (folder / "two_rooms.rad").write_text(description())
     octree = folder / "two_rooms.oct"
-    laid_out, rooms = run([programs / "oconv", "two_rooms.rad"], folder, environment)
+    laid_out, rooms = run([programs / "oconv", "two_rooms.rad"], folder, found)
     octree.write_bytes(laid_out)
-    version, _ = run([programs / "rtrace", "-version"], folder, environment)
-    return Radiance(programs, environment, octree, version.decode().strip(), luminaire + rooms)
+    version, _ = run([programs / "rtrace", "-version"], folder, found)
+    return Radiance(programs, found, octree, version.decode().strip(), luminaire + rooms)
 
 
 def description() -> str:

@@ -5,10 +5,11 @@ import os
 import subprocess
 from pathlib import Path
 
-import annual_office
 import environments
+import measured_by
 import numpy as np
 import pytest
+import radiance_office
 
 pytestmark = [pytest.mark.validate, pytest.mark.timeout(1800)]
 
@@ -20,18 +21,18 @@ def radiance() -> dict[str, str]:
         python = os.environ.get("GONIO_PEER_RADIANCE") or environments.python_of("radiance")
     except environments.Unavailable as reason:
         pytest.skip(f"no pyradiance: {reason}")
-    found = subprocess.run([str(python), "-c", "import pyradiance; print(pyradiance.__path__[0])"], capture_output=True, text=True)
-    if found.returncode:
+    try:
+        package = measured_by.packaged(Path(python))
+    except measured_by.Unavailable:
         pytest.skip("no pyradiance in the Python that was named")
-    package = Path(found.stdout.strip())
-    return {**os.environ, "PATH": f"{package / 'bin'}:{os.environ['PATH']}", "RAYPATH": f".:{package / 'lib'}"}
+    return measured_by.environment(package)
 
 
 def test_an_office_has_radiances_year(run, radiance, tmp_path):
-    (tmp_path / "year.wea").write_text(annual_office.weather())
-    (tmp_path / "office.usda").write_text(annual_office.stage())
-    (tmp_path / "room.rad").write_text(annual_office.room())
-    (tmp_path / "sky.rad").write_text(annual_office.SKY)
+    (tmp_path / "year.wea").write_text(radiance_office.weather())
+    (tmp_path / "office.usda").write_text(radiance_office.stage())
+    (tmp_path / "room.rad").write_text(radiance_office.room())
+    (tmp_path / "sky.rad").write_text(radiance_office.SKY)
     grid = ("--grid", "/Floor", "--height", 0.8, "--spacing", 0.45, "-m", 2)
     done = run("annual", tmp_path / "office.usda", "--weather", tmp_path / "year.wea", *grid, "-p", 16384, "-q", "--json", timeout=600)
     assert done.returncode == 0, done.stderr

@@ -5,6 +5,7 @@ import json
 import annual_office
 import honeybee_results
 import numpy as np
+import office_room
 import pytest
 
 pytestmark = [pytest.mark.validate, pytest.mark.timeout(900)]
@@ -99,7 +100,7 @@ def inside(point, altitude, azimuth):
     east, north, up = np.sin(azimuth) * np.cos(altitude), np.cos(azimuth) * np.cos(altitude), np.sin(altitude)
     far = np.divide(-point[1], north, out=np.zeros_like(north), where=north < -1e-6)
     across, high = point[0] + far * east, point[2] + far * up
-    (west_end, east_end), (sill, lintel) = annual_office.WINDOW
+    (west_end, east_end), (sill, lintel) = office_room.WINDOW
     return (far > 0) & (up > 0) & (west_end < across) & (across < east_end) & (sill < high) & (high < lintel)
 
 
