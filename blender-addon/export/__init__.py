@@ -29,9 +29,10 @@ __all__ = ["Changes", "Exporter"]
 
 
 class Exporter:
-    """One session's scene and what is known of it; holds no Blender data between calls. A part is exported without the world and the camera."""
+    """One session's scene and what is known of it; holds no Blender data between calls. A part is exported without the world and the camera. For
+    pictures trees are built while the rest is exported, and less is told of meshes (`pictured`)."""
 
-    def __init__(self, report, part=None):
+    def __init__(self, report, part=None, *, pictured=False):
         self.report, self._part = report, part
         self.scene = gonio.Scene()
         self._textures = Slots()
@@ -39,7 +40,7 @@ class Exporter:
         self._measured = Slots()
         meshes, materials = Slots(), Slots()
         self._materials = Materials(self.scene, materials, self._images, Measurements(self.scene, self._measured), report)
-        self._meshes = Meshes(self.scene, meshes, report)
+        self._meshes = Meshes(self.scene, meshes, report, pictured)
         self._volumes = Volumes(self.scene, meshes, materials, report)
         self._insides = Insides(self._volumes, report)
         self._air = Air(self.scene, self._volumes, report)

@@ -17,8 +17,10 @@ from .passing import passing
 class Meshes:
     """Numbers of the scene's meshes, by what is in them, so that the same mesh keeps its tree from frame to frame."""
 
-    def __init__(self, scene, slots, report):
-        self._scene, self._slots, self._report = scene, slots, report
+    def __init__(self, scene, slots, report, pictured):
+        self._scene, self._slots, self._report, self._pictured = scene, slots, report, pictured
+        # Whether trees are built meanwhile: in the first pass, for later meshes may have the trees of former ones.
+        self._ahead = pictured
         # (object, data) -> (content, values wanted, how it is cut, what went wrong) as of the last time it was read
         self._known, self._seen = {}, set()
         # (place in memory, values wanted) -> content, within a pass: many objects may show one mesh
@@ -93,9 +95,12 @@ class Meshes:
         # Renderers that cut a mesh carry values of points and of corners over to new ones in other ways.
         self.any_written, arguments = True, compact(arguments, keeps_corners=group.dicing is not None)
         points, triangles = arguments.pop("points"), arguments.pop("triangles")
+        if self._pictured and arguments["slots"] is None:
+            # Pictures do not show which triangles are of one face.
+            arguments["faces"] = None
 
         def put(index):
-            made = self._scene.put_mesh(points, triangles, name=group.name, index=index, **arguments)
+            made = self._scene.put_mesh(points, triangles, name=group.name, index=index, ahead=self._ahead and group.dicing is None, **arguments)
             if group.dicing is not None:
                 self._scene.set_dicing(made, **dict(group.dicing))
 
@@ -117,6 +122,7 @@ class Meshes:
 
     def sweep(self):
         """Frees the memory of meshes that nothing shows any more."""
+        self._ahead = False
         self._known = {place: known for place, known in self._known.items() if place in self._seen}
         for number in self._slots.sweep():
             nothing = np.zeros((0, 3), dtype=np.float32), np.zeros((0, 3), dtype=np.int32)

@@ -25,16 +25,17 @@ PREVIEW_SECONDS = 4.0
 class _Layer:
     """What a view layer keeps from one render to the next when data is persistent."""
 
-    def __init__(self) -> None:
+    def __init__(self, is_rendered: bool) -> None:
         self.report = report.Report()
-        self.exporter = Exporter(self.report)
+        self.exporter = Exporter(self.report, pictured=is_rendered)
         self.render: gonio.Render | None = None
 
 
 class FinalSession:
     """Renders view layers into Blender's results. Lives as long as the engine: with persistent data, over all frames."""
 
-    def __init__(self) -> None:
+    def __init__(self, *, is_rendered: bool = True) -> None:
+        self._is_rendered = is_rendered
         self._layers: dict[str, _Layer] = {}
 
     def sync(self, depsgraph, *, preview: bool = False, engine=None) -> None:
@@ -42,7 +43,7 @@ class FinalSession:
         With the engine, which moves the frame, what moves is blurred."""
         name = depsgraph.view_layer.name
         # An export that fails half way is not gone on with.
-        layer = self._layers.pop(name, None) or _Layer()
+        layer = self._layers.pop(name, None) or _Layer(self._is_rendered)
         layer.report.clear()
         aovs = frozenset() if preview else passes.shader_aov_names(depsgraph.view_layer)
         layer.exporter.sync(depsgraph, preview=preview, shader_aovs=aovs)

@@ -18,7 +18,7 @@ class Handover:
     """A view layer's scene with its settings, and what is to be told about it, once a render has exported them."""
 
     def __init__(self) -> None:
-        self.session = FinalSession()
+        self.session = FinalSession(is_rendered=False)
         self.scene: gonio.Scene | None = None
         self.report = report.Report()
 

@@ -51,7 +51,7 @@ class ViewportSession:
 
     def __init__(self, exporter=None, start=gonio.Render, now=time.monotonic) -> None:
         self.report = report.Report()
-        self.exporter = exporter if exporter is not None else Exporter(self.report)
+        self.exporter = exporter if exporter is not None else Exporter(self.report, pictured=True)
         self.picture: Picture | None = None
         self.status = ""
         self._start, self._now = start, now

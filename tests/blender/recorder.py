@@ -40,7 +40,7 @@ class Recorder:
     def put_atmosphere(self, description):
         self.atmosphere = description
 
-    def put_mesh(self, points, triangles, *, corners=None, faces=None, normals=None, primvars=None, slots=None, name="mesh", index=None):
+    def put_mesh(self, points, triangles, *, corners=None, faces=None, normals=None, primvars=None, slots=None, name="mesh", index=None, ahead=False):
         arrays = {"points": points, "triangles": triangles, "corners": corners, "faces": faces, "normals": normals, "slots": slots}
         for key, array in {**arrays, **(primvars or {})}.items():
             check(array is None or (array.flags.c_contiguous and array.dtype in (np.float32, np.int32)), key)

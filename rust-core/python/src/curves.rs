@@ -1,12 +1,11 @@
 //! Curves and points from Python buffers.
 
 use crate::{
-    buffer::{floats, floats_of_any_width, indices},
+    buffer::{self, floats, floats_of_any_width, indices},
     error::setting,
 };
 use gonio::scene::{CurveBasis, CurveShape, CurveWrap, Curves, Origin, PointKey, PointShape, Points, Primvar, PrimvarInterpolation};
 use pyo3::{exceptions::PyValueError, prelude::*, types::PyDict};
-use std::sync::Arc;
 
 /// The arrays and words of curves as the caller gives them.
 pub(crate) struct CurveBuffers<'a, 'py> {
@@ -24,8 +23,7 @@ pub(crate) struct CurveBuffers<'a, 'py> {
 impl CurveBuffers<'_, '_> {
     /// Checks and copies the arrays.
     pub(crate) fn curves(self, name: &str) -> PyResult<Curves> {
-        let points = floats(self.points, "points", 3)?.values;
-        let points = points.as_chunks::<3>().0;
+        let points = buffer::points(self.points, "points")?;
         let counts = indices(self.counts, "counts", 1)?.values;
         let sum: u64 = counts.iter().map(|count| u64::from(*count)).sum();
         if sum != points.len() as u64 {
@@ -43,9 +41,9 @@ impl CurveBuffers<'_, '_> {
         let wraps = [("nonperiodic", CurveWrap::Nonperiodic), ("periodic", CurveWrap::Periodic), ("pinned", CurveWrap::Pinned)];
         let mut curves = Curves {
             origin: Origin::new(name),
-            points: points.into(),
             motion: keys(self.motion, points.len())?,
-            counts: counts.into(),
+            points,
+            counts,
             basis,
             wrap: one_of("wrap", self.wrap, &wraps)?,
             shape: one_of("shape", self.shape, &[("round", CurveShape::Round), ("ribbon", CurveShape::Ribbon)])?,
@@ -76,13 +74,12 @@ pub(crate) struct PointBuffers<'a, 'py> {
 impl PointBuffers<'_, '_> {
     /// Checks and copies the arrays.
     pub(crate) fn points(self, name: &str) -> PyResult<Points> {
-        let points = floats(self.points, "points", 3)?.values;
-        let points = points.as_chunks::<3>().0;
+        let points = buffer::points(self.points, "points")?;
         let elements = [(PrimvarInterpolation::Vertex, points.len()), (PrimvarInterpolation::Constant, 1)];
         Ok(Points {
             origin: Origin::new(name),
-            points: points.into(),
             motion: keys(self.motion, points.len())?,
+            points,
             widths: widths(self.widths, &elements)?,
             normals: self.normals.map(|normals| primvar(normals, "normals", Some(3), &elements)).transpose()?,
             shape: one_of("shape", self.shape, &[("sphere", PointShape::Sphere), ("disc", PointShape::Disc)])?,
@@ -145,7 +142,7 @@ fn primvar(object: &Bound<'_, PyAny>, name: &str, components: Option<usize>, ele
         return Err(PyValueError::new_err(format!("{name}: {} values were found, expected {}", grouped.len(), expected.join(" or "))));
     };
     let (interpolation, components) = (*interpolation, grouped.width as u8);
-    Ok(Primvar { name: name.into(), interpolation, components, values: Arc::from(grouped.values), indices: None })
+    Ok(Primvar { name: name.into(), interpolation, components, values: grouped.values, indices: None })
 }
 
 /// What values belong to, by UsdGeom's word.

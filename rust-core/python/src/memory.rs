@@ -7,7 +7,7 @@ use std::{
     ptr::null_mut,
     sync::{
         Mutex, MutexGuard,
-        atomic::{AtomicBool, Ordering},
+        atomic::{AtomicUsize, Ordering},
     },
 };
 
@@ -24,8 +24,14 @@ const PAGE: usize = 4096;
 const WAITING: usize = 64;
 const MOST_WAITING: usize = 1 << 26;
 
-/// Whether freed mappings wait at all. They take room, which is dear in hosts that hold a scene of their own.
-static KEEPS: AtomicBool = AtomicBool::new(false);
+/// The same in hosts that hold a scene of their own: what building the trees of small meshes takes on a few threads.
+const MOST_WAITING_IN_HOST: usize = 1 << 24;
+
+/// How many have freed mappings wait; where none does, none wait.
+static KEEPERS: AtomicUsize = AtomicUsize::new(0);
+
+/// How many bytes of freed mappings wait at most.
+static MOST: AtomicUsize = AtomicUsize::new(MOST_WAITING_IN_HOST);
 
 /// The system's allocator but for large blocks.
 struct Memory;
@@ -44,7 +50,30 @@ pub(crate) fn give_back() {
 
 /// Lets freed mappings wait for their like from now on: for a process that reads a scene, renders it and ends.
 pub(crate) fn keep() {
-    KEEPS.store(true, Ordering::Relaxed);
+    MOST.store(MOST_WAITING, Ordering::Relaxed);
+    std::mem::forget(Keeper::new());
+}
+
+/// Lets freed mappings wait for their like until it is dropped: while trees of many meshes are built, one after the other.
+#[derive(Debug)]
+pub(crate) struct Keeper(());
+
+impl Keeper {
+    pub(crate) fn new() -> Self {
+        KEEPERS.fetch_add(1, Ordering::Relaxed);
+        Self(())
+    }
+}
+
+impl Drop for Keeper {
+    fn drop(&mut self) {
+        if KEEPERS.fetch_sub(1, Ordering::Relaxed) > 1 {
+            return;
+        }
+        // Whoever has them locked frees a block that may stay; the next one who keeps finds it.
+        let Ok(mut waiting) = FREED.try_lock() else { return };
+        (0..WAITING).for_each(|place| waiting.replace(place, (0, 0)));
+    }
 }
 
 fn is_large(layout: Layout) -> bool {
@@ -74,23 +103,34 @@ impl Waiting {
         Some(std::mem::take(found).0)
     }
 
-    /// Keeps a mapping; gives the one whose place it took, which has no bytes if there was none.
-    fn keep(&mut self, block: (usize, usize)) -> (usize, usize) {
-        if self.bytes + block.1 > MOST_WAITING {
-            return block;
+    /// Keeps a mapping; those that wait the longest make room for it.
+    fn keep(&mut self, block: (usize, usize)) {
+        let most = MOST.load(Ordering::Relaxed);
+        if block.1 > most {
+            return unmap(block);
         }
         let place = self.next;
         self.next = (place + 1) % WAITING;
+        self.replace(place, block);
+        for later in 1..WAITING {
+            if self.bytes <= most {
+                break;
+            }
+            self.replace((place + later) % WAITING, (0, 0));
+        }
+    }
+
+    fn replace(&mut self, place: usize, block: (usize, usize)) {
         let old = std::mem::replace(&mut self.blocks[place], block);
         self.bytes = self.bytes + block.1 - old.1;
-        old
+        unmap(old);
     }
 }
 
 /// The mappings that wait, where any do. Whoever finds them locked goes to the kernel: allocating never waits, not even in a process that was
 /// split off meanwhile.
 fn freed() -> Option<MutexGuard<'static, Waiting>> {
-    if KEEPS.load(Ordering::Relaxed) { FREED.try_lock().ok() } else { None }
+    if KEEPERS.load(Ordering::Relaxed) > 0 { FREED.try_lock().ok() } else { None }
 }
 
 /// Gives a mapping back to the kernel.
@@ -136,7 +176,10 @@ fn fresh(size: usize) -> *mut u8 {
 /// Frees a large block.
 fn free(block: *mut u8, size: usize) {
     let block = (block as usize, mapped(size));
-    unmap(freed().map_or(block, |mut waiting| waiting.keep(block)));
+    match freed() {
+        Some(mut waiting) => waiting.keep(block),
+        None => unmap(block),
+    }
 }
 
 // SAFETY: blocks are the system's or whole mappings of their own, page-aligned, zeroed where asked; which of the two follows from the layout alone,

@@ -1,6 +1,6 @@
 //! Meshes from Python buffers: triangles of points, or triangles of polygon corners as hosts with polygons have them.
 
-use crate::buffer::{floats, floats_of_any_width, indices};
+use crate::buffer::{self, floats, floats_of_any_width, indices};
 use gonio::scene::{Mesh, MeshKey, Origin, Primvar, PrimvarInterpolation};
 use pyo3::{exceptions::PyValueError, prelude::*, types::PyDict};
 use std::sync::Arc;
@@ -32,22 +32,20 @@ struct Topology {
 impl MeshBuffers<'_, '_> {
     /// Checks and copies the arrays.
     pub(crate) fn mesh(self, name: &str) -> PyResult<Mesh> {
-        let points = floats(self.points, "points", 3)?.values;
-        let points = points.as_chunks::<3>().0;
-        let mut triangles = indices(self.triangles, "triangles", 3)?.values;
-        let triangles = triangles.as_chunks_mut::<3>().0;
+        let points = buffer::points(self.points, "points")?;
+        let mut triangles = buffer::triangles(self.triangles, "triangles")?;
         let faces = self.faces.map(|faces| indices(faces, "faces", 1)).transpose()?.map(|faces| faces.values);
         if let Some(faces) = faces.as_ref().filter(|faces| faces.len() != triangles.len()) {
             return Err(PyValueError::new_err(format!("faces: {} values were found, expected {}", faces.len(), triangles.len())));
         }
         let corners = match self.corners {
-            Some(corners) => Some(resolve_corners(&indices(corners, "corners", 1)?.values, triangles)?),
+            Some(corners) => Some(resolve_corners(&indices(corners, "corners", 1)?.values, &mut triangles)?),
             None => None,
         };
         if let Some(index) = triangles.iter().flatten().find(|index| **index as usize >= points.len()) {
             return Err(PyValueError::new_err(format!("triangles: index {index} is out of range, there are {} points", points.len())));
         }
-        let faces = faces.map(|faces| (faces.iter().max().map_or(0, |most| *most as usize + 1), Arc::from(faces)));
+        let faces = faces.map(|faces| (faces.iter().max().map_or(0, |most| *most as usize + 1), faces));
         let topology = Topology { points: points.len(), triangles: triangles.len(), corners, faces };
         let mut primvars = Vec::new();
         if let Some(uvs) = self.uvs {
@@ -61,9 +59,9 @@ impl MeshBuffers<'_, '_> {
             origin: Origin::new(name),
             normals: self.normals.map(|normals| topology.primvar(normals, "normals", Some(3))).transpose()?,
             slots: self.slots.map(|slots| topology.slots(slots)).transpose()?,
-            points: points.into(),
+            points,
             motion,
-            triangles: Arc::from(&*triangles),
+            triangles,
             primvars,
             faces: topology.faces.map(|(_, of_triangle)| of_triangle),
             dicing: None,
@@ -94,12 +92,12 @@ fn keys(points: Option<&Bound<'_, PyAny>>, normals: Option<&Bound<'_, PyAny>>, c
 }
 
 /// Turns corner numbers of triangles into point numbers; gives the number of corners and the corner numbers.
-fn resolve_corners(corners: &[u32], triangles: &mut [[u32; 3]]) -> PyResult<(usize, Arc<[u32]>)> {
+fn resolve_corners(corners: &[u32], triangles: &mut Arc<[[u32; 3]]>) -> PyResult<(usize, Arc<[u32]>)> {
     let of_triangles: Arc<[u32]> = triangles.as_flattened().into();
     if let Some(corner) = of_triangles.iter().find(|corner| **corner as usize >= corners.len()) {
         return Err(PyValueError::new_err(format!("triangles: corner {corner} is out of range, there are {} corners", corners.len())));
     }
-    triangles.iter_mut().flatten().for_each(|corner| *corner = corners[*corner as usize]);
+    Arc::make_mut(triangles).iter_mut().flatten().for_each(|corner| *corner = corners[*corner as usize]);
     Ok((corners.len(), of_triangles))
 }
 
@@ -111,7 +109,7 @@ impl Topology {
             None => floats_of_any_width(object, name)?,
         };
         let (elements, components) = (grouped.len(), grouped.width as u8);
-        let values: Arc<[f32]> = grouped.values.into();
+        let values = grouped.values;
         let primvar = |interpolation, indices| Primvar { name: name.into(), interpolation, components, values, indices };
         match elements {
             // Where there are corners, values for each are what hosts have most of.

@@ -10,7 +10,7 @@ use pyo3::{exceptions::PyValueError, prelude::*};
 #[pyfunction]
 pub(crate) fn compute(py: Python<'_>, operation: &Bound<'_, PyAny>, inputs: Vec<Bound<'_, PyAny>>) -> PyResult<Option<Array>> {
     let operation: Operation = description::read(operation, "operation")?;
-    let inputs = inputs.iter().map(|input| Ok(floats(input, "inputs", 4)?.values)).collect::<PyResult<Vec<Vec<f32>>>>()?;
+    let inputs = inputs.iter().map(|input| Ok(floats(input, "inputs", 4)?.values.to_vec())).collect::<PyResult<Vec<Vec<f32>>>>()?;
     let rows: Vec<&[[f32; 4]]> = inputs.iter().map(|values| values.as_chunks().0).collect();
     if rows.iter().any(|each| each.len() != rows[0].len()) {
         return Err(PyValueError::new_err("inputs: expected arrays of one length"));

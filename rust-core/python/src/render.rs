@@ -4,13 +4,13 @@ use crate::{
     bake::BakedPlaces,
     error::{exception, told},
     film::Film,
-    memory,
+    memory::{self, Keeper},
     scene::Scene,
 };
 use crossbeam_channel::RecvTimeoutError;
 use gonio::{
     checkpoint::{Checkpoint, Identity, write_checkpoint},
-    compile::{CompiledScene, compile},
+    compile::{CompiledScene, TreesAhead, compile_ahead},
     render,
 };
 use gonio_simd::Execution;
@@ -129,14 +129,26 @@ const COMPILE_POLL: Duration = Duration::from_millis(50);
 type Started = gonio::Result<(render::Render, f32, Arc<CompiledScene>)>;
 
 /// Compiles and starts baking.
-fn start_baking(scene: &gonio::scene::Scene, before: Option<&CompiledScene>, places: &BakedPlaces, stop: &AtomicBool) -> Started {
-    let compiled = Arc::new(compile(scene, before, stop)?);
+fn start_baking(
+    scene: &gonio::scene::Scene,
+    before: Option<&CompiledScene>,
+    ahead: TreesAhead,
+    places: &BakedPlaces,
+    stop: &AtomicBool,
+) -> Started {
+    let compiled = Arc::new(compile_ahead(scene, before, ahead, stop)?);
     let render = gonio::bake::bake(scene, compiled.clone(), &places.target, &scene.settings, Execution::detect())?;
     Ok((render, 1.0, compiled))
 }
 
 /// Compiles and starts; gives the camera's exposure too.
-fn start(scene: &gonio::scene::Scene, before: Option<&CompiledScene>, resume: Option<&Path>, stop: &AtomicBool) -> Started {
+fn start(
+    scene: &gonio::scene::Scene,
+    before: Option<&CompiledScene>,
+    ahead: TreesAhead,
+    resume: Option<&Path>,
+    stop: &AtomicBool,
+) -> Started {
     let (settings, execution) = (&scene.settings, Execution::detect());
     let exposure = scene.cameras.get(settings.camera as usize).map_or(1.0, |camera| camera.exposure.0);
     let film = resume.map(|path| Checkpoint::resume(path, &Identity::new(scene, execution, Vec::new()))).transpose()?;
@@ -144,7 +156,10 @@ fn start(scene: &gonio::scene::Scene, before: Option<&CompiledScene>, resume: Op
     if before.is_none() {
         memory::give_back();
     }
-    let compiled = Arc::new(compile(scene, before, stop)?);
+    let compiled = {
+        let _memory = Keeper::new();
+        Arc::new(compile_ahead(scene, before, ahead, stop)?)
+    };
     if before.is_none() {
         memory::give_back();
     }
@@ -170,8 +185,8 @@ impl Render {
         cancelled: Option<&Bound<'_, PyAny>>,
         resume: Option<PathBuf>,
     ) -> PyResult<Self> {
-        let (description, before) = (scene.scene.clone(), previous.and_then(Self::compiled));
-        let start = move |stop: &AtomicBool| start(&description, before.as_deref(), resume.as_deref(), stop);
+        let (description, before, ahead) = (scene.scene.clone(), previous.and_then(Self::compiled), scene.trees_ahead());
+        let start = move |stop: &AtomicBool| start(&description, before.as_deref(), ahead, resume.as_deref(), stop);
         Self::started(py, scene, cancelled, false, start)
     }
     /// Bakes: a render whose pixels lie on an instance in place of a camera's view; the film's passes are textures. The scene's settings tell
@@ -197,8 +212,8 @@ impl Render {
         cancelled: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let places = BakedPlaces::new([instance, placement], triangles, places, steps, view)?;
-        let (description, before) = (scene.scene.clone(), previous.and_then(Self::compiled));
-        let start = move |stop: &AtomicBool| start_baking(&description, before.as_deref(), &places, stop);
+        let (description, before, ahead) = (scene.scene.clone(), previous.and_then(Self::compiled), scene.trees_ahead());
+        let start = move |stop: &AtomicBool| start_baking(&description, before.as_deref(), ahead, &places, stop);
         Self::started(py, scene, cancelled, true, start)
     }
     fn __enter__(slf: Py<Self>) -> Py<Self> {

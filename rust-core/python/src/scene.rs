@@ -8,12 +8,14 @@ use crate::{
     error::{exception, setting, told},
     field,
     measured::MeasuredBsdf,
+    memory::Keeper,
     mesh::MeshBuffers,
     mesh_file, settings,
 };
 use gonio::{
     Diagnostic,
     checkpoint::{Part, parts},
+    compile::TreesAhead,
     scene::{
         self, CurvesId, Dicing, Geometry, Instances, Link, Linking, MaterialId, MatteName, MeshId, Origin, PointsId, Primvar,
         PrimvarInterpolation, Transform,
@@ -28,6 +30,7 @@ use pyo3::{
 use std::{
     collections::HashMap,
     path::{Path, PathBuf},
+    sync::{Mutex, PoisonError},
 };
 
 /// What is to be rendered: meshes, instances, materials, lights, cameras, settings; lengths in metres, radiances in cd/m².
@@ -38,6 +41,15 @@ pub(crate) struct Scene {
     pub(crate) diagnostics: Vec<Diagnostic>,
     /// Cameras were described with their own apertures, which the picture's shape leaves alone.
     pub(crate) cameras_have_shape: bool,
+    /// Trees that are built before the scene is rendered.
+    pub(crate) ahead: Mutex<Option<Ahead>>,
+}
+
+/// Trees under way, for which freed memory is kept meanwhile.
+#[derive(Debug)]
+pub(crate) struct Ahead {
+    trees: TreesAhead,
+    _memory: Keeper,
 }
 
 impl Scene {
@@ -51,6 +63,12 @@ impl Scene {
 }
 
 impl Scene {
+    /// Takes the trees that were begun: the next render waits for them.
+    pub(crate) fn trees_ahead(&self) -> TreesAhead {
+        let mut ahead = self.ahead.lock().unwrap_or_else(PoisonError::into_inner);
+        ahead.take().map(|ahead| ahead.trees).unwrap_or_default()
+    }
+
     /// What is placed: one of these.
     fn geometry(&self, mesh: Option<u32>, curves: Option<u32>, points: Option<u32>) -> PyResult<Geometry> {
         let (kind, number, geometry, there) = match (mesh, curves, points) {
@@ -97,8 +115,9 @@ impl Scene {
     /// of each polygon corner; faces: integer buffer (M,), the polygon of each triangle; normals: float buffer with a value a point or corner, or
     /// None for flat triangles; uvs: float buffer, two numbers a point or corner; primvars: other values by name, 1 to 4 numbers a point, corner,
     /// face or mesh; slots: integer buffer of material slots, one a triangle or face; motion: float
-    /// buffer (K, N, 3), the points at K evenly spaced times over the shutter; motion_normals: the normals at those.
-    #[pyo3(signature = (points, triangles, *, corners = None, faces = None, normals = None, uvs = None, primvars = None, slots = None, motion = None, motion_normals = None, name = "mesh", index = None))]
+    /// buffer (K, N, 3), the points at K evenly spaced times over the shutter; motion_normals: the normals at those. ahead: other threads build the
+    /// mesh's tree meanwhile, which the next `Render` takes; for scenes of many meshes that are rendered once they are described.
+    #[pyo3(signature = (points, triangles, *, corners = None, faces = None, normals = None, uvs = None, primvars = None, slots = None, motion = None, motion_normals = None, name = "mesh", index = None, ahead = false))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn put_mesh(
         &mut self,
@@ -114,9 +133,14 @@ impl Scene {
         motion_normals: Option<&Bound<'_, PyAny>>,
         name: &str,
         index: Option<u32>,
+        ahead: bool,
     ) -> PyResult<u32> {
         let buffers = MeshBuffers { points, triangles, corners, faces, normals, uvs, primvars, slots, motion, motion_normals };
         let mesh = buffers.mesh(name)?;
+        if ahead {
+            let under_way = self.ahead.get_mut().unwrap_or_else(PoisonError::into_inner);
+            under_way.get_or_insert_with(|| Ahead { trees: TreesAhead::default(), _memory: Keeper::new() }).trees.add(&mesh);
+        }
         description::put(&mut self.scene.meshes, "mesh", mesh, index)
     }
 
@@ -233,7 +257,7 @@ impl Scene {
             let name: String = key.extract()?;
             let values = floats_of_any_width(&value, &name)?;
             let (components, interpolation) = (values.width as u8, PrimvarInterpolation::Uniform);
-            own.push(Primvar { name, interpolation, components, values: values.values.into(), indices: None });
+            own.push(Primvar { name, interpolation, components, values: values.values, indices: None });
         }
         let (visibility, [holdout, shadow_catcher]) = description::visibility(visibility.unwrap_or_default())?;
         let instances = Instances {
@@ -545,7 +569,7 @@ impl Scene {
     ) -> PyResult<Bound<'py, Self>> {
         let scene = py.detach(|| scene::of_bundle(bytes, Path::new("pickle"))).map_err(exception)?;
         let diagnostics = diagnostics.into_iter().map(|(origin, message)| Diagnostic::warning(&Origin::new(origin), message)).collect();
-        Self { scene, cameras_have_shape, diagnostics }.public(py)
+        Self { scene, cameras_have_shape, diagnostics, ..Self::default() }.public(py)
     }
 
     /// Loads a bundle.

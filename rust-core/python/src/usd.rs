@@ -51,14 +51,14 @@ pub(crate) fn load_usd<'py>(
     let primary = primary_camera_name(py, loaded.scene.cameras.len());
     let notes = complete(&mut loaded, &primary, &view).map_err(exception)?;
     loaded.diagnostics.extend(notes);
-    Scene { scene: loaded.scene, diagnostics: loaded.diagnostics, cameras_have_shape: false }.public(py)
+    Scene { scene: loaded.scene, diagnostics: loaded.diagnostics, cameras_have_shape: false, ..Scene::default() }.public(py)
 }
 
 /// The scene that `gonio render` with these arguments, the program's name first, would trace at a frame; relative paths start at `folder`.
 #[pyfunction]
 pub(crate) fn _scene(py: Python<'_>, arguments: Vec<String>, folder: PathBuf, frame: Option<f64>) -> PyResult<Bound<'_, Scene>> {
     let loaded = gonio_cli::farm_scene(py, &arguments, &folder, frame).map_err(exception)?;
-    Scene { scene: loaded.scene, diagnostics: loaded.diagnostics, cameras_have_shape: false }.public(py)
+    Scene { scene: loaded.scene, diagnostics: loaded.diagnostics, cameras_have_shape: false, ..Scene::default() }.public(py)
 }
 
 /// The scene that `gonio view` with these arguments, the program's name first, would show at a frame, and what its window has to know, as JSON.
@@ -70,7 +70,7 @@ pub(crate) fn _view_scene(
     frame: Option<f64>,
 ) -> PyResult<(Bound<'_, Scene>, String)> {
     let gonio_cli::Viewed { loaded, about } = gonio_cli::view_scene(py, &arguments, &folder, frame).map_err(exception)?;
-    let scene = Scene { scene: loaded.scene, diagnostics: loaded.diagnostics, cameras_have_shape: true };
+    let scene = Scene { scene: loaded.scene, diagnostics: loaded.diagnostics, cameras_have_shape: true, ..Scene::default() };
     Ok((scene.public(py)?, about))
 }
 

@@ -1,4 +1,4 @@
-"""One heavy mesh rendered by one engine of Blender, in a process of its own: `child.py ENGINE JSON`.
+"""One heavy scene rendered by one engine of Blender, in a process of its own: `child.py ENGINE JSON`.
 
 Answers a line of JSON: the peak of memory above what the open file takes, seconds of the processor and of the clock.
 """
@@ -19,8 +19,11 @@ sys.path[:0] = [str(ROOT / "tests/validate")]
 
 from processor import processor_seconds  # noqa: E402
 
+# Triangles of the thing that is placed many times.
+PLACED = 200
 
-def main(engine: str, triangles: int, quads: bool, uv: bool, threads: int, seam: bool = False) -> None:
+
+def main(engine: str, things: str, count: int, threads: int, **how: bool | int) -> None:
     """Makes the file, renders it once and tells what that took."""
     answers = os.fdopen(os.dup(1), "w")
     # Blender prints where it likes.
@@ -28,19 +31,20 @@ def main(engine: str, triangles: int, quads: bool, uv: bool, threads: int, seam:
     if engine == "GONIO":
         register()
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    count = ground(triangles, quads, uv, seam)
+    shown = {"mesh": ground, "objects": objects, "instances": instances}[things](count, **how)
     settings(engine, threads)
     # Nothing that the first render of all brings along counts.
-    thing = bpy.data.objects["ground"]
-    thing.hide_render = True
+    for thing in shown:
+        thing.hide_render = True
     bpy.ops.render.render()
-    thing.hide_render = False
+    for thing in shown:
+        thing.hide_render = False
     before = status("VmRSS")
     Path("/proc/self/clear_refs").write_text("5")
     used, start = processor_seconds(), time.perf_counter()
     bpy.ops.render.render()
     used, seconds = processor_seconds() - used, time.perf_counter() - start
-    told = {"triangles": count, "peak": status("VmHWM") - before, "left": status("VmRSS") - before, "processor": used, "seconds": seconds}
+    told = {"count": count, "peak": status("VmHWM") - before, "left": status("VmRSS") - before, "processor": used, "seconds": seconds}
     answers.write(json.dumps(told) + "\n")
     answers.flush()
     # The file need not be taken down in order.
@@ -62,10 +66,70 @@ def status(name: str) -> int:
     return 1024 * int(line.split()[1])
 
 
-def ground(triangles: int, quads: bool, uv: bool, seam: bool = False) -> int:
-    """Smooth wrinkled ground of about so many triangles, of one material, its UV map torn in the middle by a `seam`; gives how many they are."""
-    side = math.isqrt(triangles // 2)
-    made = bpy.data.meshes.new("ground")
+def ground(triangles: int, quads: bool, uv: bool, seam: bool = False) -> list[bpy.types.Object]:
+    """Smooth wrinkled ground of about so many triangles, of one material, its UV map torn in the middle by a `seam`."""
+    return [placed("ground", wrinkled_mesh("ground", math.isqrt(triangles // 2), quads, uv, seam))]
+
+
+def objects(triangles: int, each: int) -> list[bpy.types.Object]:
+    """Pieces of ground in a square, each an object with a mesh of its own."""
+    count = triangles // each
+    across, side, made = math.ceil(math.sqrt(count)), math.isqrt(each // 2), []
+    for number in range(count):
+        thing = placed(f"piece {number}", wrinkled_mesh(f"piece {number}", side, quads=True, uv=False, seam=False))
+        thing.scale = 3 * [1.0 / across]
+        # Each has its own place in the pattern, so that no two meshes are alike.
+        thing.data.attributes["position"].data[0].vector.z += 1e-3 * number
+        thing.location = (20.0 * (number % across + 0.5) / across - 10.0, 20.0 * (number // across + 0.5) / across - 10.0, 0.0)
+        made.append(thing)
+    return made
+
+
+def instances(count: int) -> list[bpy.types.Object]:
+    """A soup of triangles that geometry nodes put on each point of a square."""
+    rng = numpy.random.default_rng(1)
+    soup = bpy.data.meshes.new("soup")
+    corners = (rng.random((PLACED, 1, 3)) + rng.normal(0.0, 0.1, (PLACED, 3, 3))).reshape(-1, 3)
+    soup.from_pydata(corners.tolist(), [], numpy.arange(3 * PLACED).reshape(-1, 3).tolist())
+    thing = placed("soup", soup)
+    thing.hide_render = True
+    side = math.isqrt(count)
+    field = bpy.data.meshes.new("field")
+    field.vertices.add(side * side)
+    across = numpy.linspace(-10.0, 10.0, side, dtype="f4")
+    x, y = numpy.meshgrid(across, across)
+    field.attributes["position"].data.foreach_set("vector", numpy.stack([x, y, 0.0 * x], axis=2).ravel())
+    shown = placed("field", field)
+    shown.modifiers.new("instances", "NODES").node_group = instancing(thing, 20.0 / side)
+    return [shown]
+
+
+def instancing(thing: bpy.types.Object, size: float) -> bpy.types.NodeTree:
+    """Nodes that put a thing of this size on each point."""
+    tree = bpy.data.node_groups.new("instances", "GeometryNodeTree")
+    for way in ("INPUT", "OUTPUT"):
+        tree.interface.new_socket("Geometry", in_out=way, socket_type="NodeSocketGeometry")
+    kinds = ("NodeGroupInput", "GeometryNodeMeshToPoints", "GeometryNodeObjectInfo", "GeometryNodeInstanceOnPoints", "NodeGroupOutput")
+    given, points, info, put, result = (tree.nodes.new(kind) for kind in kinds)
+    info.inputs["Object"].default_value, info.inputs["As Instance"].default_value = thing, True
+    put.inputs["Scale"].default_value = 3 * [size]
+    tree.links.new(given.outputs[0], points.inputs["Mesh"])
+    tree.links.new(points.outputs[0], put.inputs["Points"])
+    tree.links.new(info.outputs["Geometry"], put.inputs["Instance"])
+    tree.links.new(put.outputs[0], result.inputs[0])
+    return tree
+
+
+def placed(name: str, mesh: bpy.types.Mesh) -> bpy.types.Object:
+    """A mesh in the scene."""
+    thing = bpy.data.objects.new(name, mesh)
+    bpy.context.scene.collection.objects.link(thing)
+    return thing
+
+
+def wrinkled_mesh(name: str, side: int, quads: bool, uv: bool, seam: bool) -> bpy.types.Mesh:
+    """Smooth wrinkled ground of so many squares a side."""
+    made = bpy.data.meshes.new(name)
     made.vertices.add((side + 1) ** 2)
     made.attributes["position"].data.foreach_set("vector", wrinkled(side).ravel())
     corners, size = faces(side, quads), 4 if quads else 3
@@ -79,9 +143,8 @@ def ground(triangles: int, quads: bool, uv: bool, seam: bool = False) -> int:
         made.uv_layers.new(do_init=False).uv.foreach_set("vector", flat.ravel())
     made.update(calc_edges=True)
     made.shade_smooth()
-    made.materials.append(material(uv))
-    bpy.context.scene.collection.objects.link(bpy.data.objects.new("ground", made))
-    return 2 * side * side
+    made.materials.append(bpy.data.materials.get("ground") or material(uv))
+    return made
 
 
 def wrinkled(side: int) -> numpy.ndarray:

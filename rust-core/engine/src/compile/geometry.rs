@@ -3,7 +3,7 @@
 use super::{
     bounds::Bounds,
     cut::Cut,
-    fill::{append_made, append_values},
+    fill::{self, append_made, append_values},
     instances::{append_instances, report_unplaceable},
     motion,
     numbers::{geometry_number, named},
@@ -88,12 +88,15 @@ pub(super) fn tables(
 fn reserve(scene: &Scene, cuts: &[Cut], names: &[String], table: &mut GeometryTable) {
     let in_cuts: usize = cuts.iter().map(|cut| cut.points.len()).sum();
     let primvars = || scene.meshes.iter().flat_map(|mesh| names.iter().filter_map(move |name| mesh.primvar(name)).chain(&mesh.normals));
-    table.points.reserve_exact(scene.meshes.iter().map(|mesh| mesh.points.len() * 3).sum::<usize>() + 3 * in_cuts + PADDED);
-    table.radii.reserve_exact(in_cuts + PADDED);
-    table.pieces.reserve_exact(cuts.iter().map(|cut| cut.pieces.len()).sum::<usize>() + PADDED);
-    table.corners.reserve_exact(scene.meshes.iter().map(|mesh| mesh.triangles.len() * 3).sum::<usize>() + PADDED);
-    table.values.reserve_exact(primvars().map(|primvar| primvar.values.len()).sum::<usize>() + PADDED);
-    table.value_indices.reserve_exact(primvars().filter_map(|primvar| primvar.indices.as_ref()).map(|i| i.len()).sum::<usize>() + PADDED);
+    fill::reserve(&mut table.points, scene.meshes.iter().map(|mesh| mesh.points.len() * 3).sum::<usize>() + 3 * in_cuts + PADDED);
+    fill::reserve(&mut table.radii, in_cuts + PADDED);
+    fill::reserve(&mut table.pieces, cuts.iter().map(|cut| cut.pieces.len()).sum::<usize>() + PADDED);
+    fill::reserve(&mut table.corners, scene.meshes.iter().map(|mesh| mesh.triangles.len() * 3).sum::<usize>() + PADDED);
+    fill::reserve(&mut table.values, primvars().map(|primvar| primvar.values.len()).sum::<usize>() + PADDED);
+    fill::reserve(
+        &mut table.value_indices,
+        primvars().filter_map(|primvar| primvar.indices.as_ref()).map(|i| i.len()).sum::<usize>() + PADDED,
+    );
 }
 
 /// Appends a mesh; gives its part of its instances' rows.

@@ -2,6 +2,7 @@
 //!
 //! Meshes whose arrays did not change keep their trees; moving instances rebuilds the top level alone.
 
+mod ahead;
 mod bands;
 mod bodies;
 mod bounds;
@@ -67,7 +68,9 @@ use lights::{CompiledLights, KeptLights};
 use looks::Looks;
 use numbers::geometry_number;
 use shapes::Shapes;
+use trees::KeptTree;
 
+pub use ahead::TreesAhead;
 pub(crate) use bands::BandedScene;
 pub use bounds::Bounds;
 pub(crate) use casters::Casters;
@@ -97,10 +100,16 @@ use std::{
 /// Lays a scene out; `previous` lends what did not change. Cancelling gives [`Error::Cancelled`](crate::error::Error::Cancelled) within a tenth of a
 /// second or so.
 pub fn compile(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicBool) -> Result<CompiledScene> {
-    in_pool(|| laid_out(scene, previous, cancel))
+    in_pool(|| laid_out(scene, previous, &[], cancel))
 }
 
-fn laid_out(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicBool) -> Result<CompiledScene> {
+/// The same with trees that were built while the scene was described. Not to be called on a thread of the pool.
+pub fn compile_ahead(scene: &Scene, previous: Option<&CompiledScene>, ahead: TreesAhead, cancel: &AtomicBool) -> Result<CompiledScene> {
+    let trees = ahead.finish();
+    in_pool(|| laid_out(scene, previous, &trees, cancel))
+}
+
+fn laid_out(scene: &Scene, previous: Option<&CompiledScene>, ahead: &[KeptTree], cancel: &AtomicBool) -> Result<CompiledScene> {
     let start = Instant::now();
     let complete = standard_passes::complete(scene);
     let mut diagnostics = Vec::new();
@@ -114,7 +123,7 @@ fn laid_out(scene: &Scene, previous: Option<&CompiledScene>, cancel: &AtomicBool
     check(cancel)?;
     let displaced = displace::apply(scene, looks.laid(), &kept.displaced, cancel, &mut diagnostics)?;
     let scene = displaced.as_ref().map_or(scene, |displaced| &displaced.scene);
-    let mut shapes = Shapes::compile(scene, &looks, kept, cancel, &mut diagnostics)?;
+    let mut shapes = Shapes::compile(scene, &looks, kept, ahead, cancel, &mut diagnostics)?;
     let mut lights = lit(scene, &mut looks, &mut shapes, &kept.lights, cancel, &mut diagnostics)?;
     let bvh = shapes.top_level(cancel)?;
     let statistics = CompileStatistics { total_s: start.elapsed().as_secs_f64(), ..statistics(scene, &looks, &shapes, &lights) };

@@ -47,11 +47,12 @@ impl Shapes {
         scene: &Scene,
         looks: &Looks,
         kept: &Kept,
+        ahead: &[KeptTree],
         cancel: &AtomicBool,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Result<Self> {
         let start = Instant::now();
-        let trees = trees::build_trees(scene, &kept.trees, cancel, diagnostics)?;
+        let trees = trees::build_trees(scene, &kept.trees, ahead, cancel, diagnostics)?;
         let built = start.elapsed();
         let mut cuts = cut::cut_all(scene, &looks.names, diagnostics);
         let segments = cuts.iter().map(|cut| cut.pieces.len() as u64).sum();

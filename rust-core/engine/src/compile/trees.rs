@@ -25,6 +25,12 @@ pub(super) struct KeptTree {
     pub(super) bounds: Bounds,
 }
 
+impl KeptTree {
+    fn new(mesh: &Mesh, tree: Blas) -> Self {
+        Self { points: mesh.points.clone(), triangles: mesh.triangles.clone(), tree: Arc::new(tree), bounds: of_mesh(mesh) }
+    }
+}
+
 /// Where a mesh's arrays lie.
 type Arrays = [usize; 2];
 
@@ -33,18 +39,23 @@ fn arrays(points: &[[f32; 3]], triangles: &[[u32; 3]]) -> Arrays {
 }
 
 /// Larger meshes are built one after the other, each on all threads: what their building needs would add up.
-const LARGE: usize = 1 << 18;
+pub(super) const LARGE: usize = 1 << 18;
 
-/// Trees of all meshes; those whose arrays are the very same as before are kept, those of gone meshes fitted to the same triangles over other points.
+/// Trees of all meshes; those whose arrays are the very same as before, or as `ahead`, are kept, those of gone meshes fitted to the same triangles
+/// over other points.
 pub(super) fn build_trees(
     scene: &Scene,
     previous: &[KeptTree],
+    ahead: &[KeptTree],
     cancel: &AtomicBool,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<Vec<KeptTree>> {
-    let known: HashMap<Arrays, &KeptTree> = previous.iter().map(|kept| (arrays(&kept.points, &kept.triangles), kept)).collect();
     let gone = gone(scene, previous);
     let care = Care::of_scene(scene.meshes.iter().map(|mesh| mesh.triangles.len()).sum());
+    // Quick ones, which a scene that lost most of its triangles again has no use for.
+    let ahead = if care == Care::Quick { ahead } else { &[] };
+    let known: HashMap<Arrays, &KeptTree> =
+        ahead.iter().chain(previous).map(|kept| (arrays(&kept.points, &kept.triangles), kept)).collect();
     // Arrays of no length may share an address with others.
     let same = |kept: &&KeptTree, mesh: &Mesh| {
         kept.tree.is_still() && Arc::ptr_eq(&kept.points, &mesh.points) && Arc::ptr_eq(&kept.triangles, &mesh.triangles)
@@ -55,13 +66,11 @@ pub(super) fn build_trees(
         if !deforms && let Some(kept) = known.get(&arrays(&mesh.points, &mesh.triangles)).copied().filter(|kept| same(kept, mesh)) {
             return Ok((kept.clone(), None));
         }
-        let (tree, problem) = match fitted(mesh, &gone) {
-            _ if deforms => (deforming(mesh, care, cancel)?, None),
-            Some(tree) => (tree, None),
-            None => built(mesh, care, cancel)?,
-        };
-        let kept = KeptTree { points: mesh.points.clone(), triangles: mesh.triangles.clone(), tree: Arc::new(tree), bounds: of_mesh(mesh) };
-        Ok((kept, problem))
+        match fitted(mesh, &gone) {
+            _ if deforms => Ok((KeptTree::new(mesh, deforming(mesh, care, cancel)?), None)),
+            Some(tree) => Ok((KeptTree::new(mesh, tree), None)),
+            None => still(mesh, care, cancel),
+        }
     };
     let (large, small): (Vec<usize>, Vec<usize>) = (0..scene.meshes.len()).partition(|i| scene.meshes[*i].triangles.len() > LARGE);
     let mut made: Vec<(usize, Made)> = small.into_par_iter().map(|i| Ok((i, tree(&scene.meshes[i])?))).collect::<Result<_>>()?;
@@ -79,7 +88,7 @@ pub(super) fn build_trees(
 }
 
 /// A tree, and what is wrong with the mesh.
-type Made = (KeptTree, Option<Diagnostic>);
+pub(super) type Made = (KeptTree, Option<Diagnostic>);
 
 /// Trees that no mesh of the scene has any more, by the numbers of points and triangles.
 fn gone<'a>(scene: &Scene, previous: &'a [KeptTree]) -> HashMap<[usize; 2], &'a KeptTree> {
@@ -102,11 +111,12 @@ fn deforming(mesh: &Mesh, care: Care, cancel: &AtomicBool) -> Result<Blas> {
     Blas::build_deforming(&keys, triangles, care, cancel).map_err(|_| Error::Cancelled)
 }
 
-fn built(mesh: &Mesh, care: Care, cancel: &AtomicBool) -> Result<(Blas, Option<Diagnostic>)> {
+/// The tree of a mesh that keeps its form.
+pub(super) fn still(mesh: &Mesh, care: Care, cancel: &AtomicBool) -> Result<Made> {
     let problem = wrong_triangle(mesh);
     let triangles: &[[u32; 3]] = if problem.is_none() { &mesh.triangles } else { &[] };
     let tree = Blas::build(&mesh.points, triangles, care, cancel).map_err(|_| Error::Cancelled)?;
-    Ok((tree, problem))
+    Ok((KeptTree::new(mesh, tree), problem))
 }
 
 /// What is wrong with a triangle of a point that is not there.

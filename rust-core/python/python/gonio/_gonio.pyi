@@ -794,6 +794,7 @@ class Scene:
         motion_normals: Numbers | None = None,
         name: str = "mesh",
         index: int | None = None,
+        ahead: bool = False,
     ) -> int: ...
     def set_dicing(
         self, mesh: int, *, pixels: float = 1.0, length: float = 0.0, levels: int = 12, smooth: bool = True
