@@ -24,7 +24,7 @@ const AGES: Bounds = Bounds::from(15.0, 100.0, " years");
 /// Shares.
 const SHARES: Bounds = Bounds::above(0.0, 1.0, "");
 
-const PARTS: [&str; 6] = ["road", "row", "footpath", "required", "period", "optimise"];
+const PARTS: [&str; 7] = ["road", "row", "footpath", "required", "class", "period", "optimise"];
 const KEYS: [&str; 11] = [
     "carriageway_width",
     "lanes",
@@ -70,6 +70,7 @@ pub(super) fn road(bytes: &[u8], path: &Path) -> Result<Road> {
         rows: rows::rows(&parts, &file)?,
         footpaths: lists::footpaths(&parts, &file)?,
         required: lists::required(&parts, &file)?,
+        classes: lists::classes(&parts, &file)?,
         periods: lists::periods(&parts, &file)?,
         ranges: lists::ranges(&parts, &file)?,
     };
