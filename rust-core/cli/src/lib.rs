@@ -122,6 +122,7 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
         Command::Measure(options) => measure::measure(py, &options, &INTERRUPTED),
         Command::Emergency(options) => norms::emergency(py, &options, &INTERRUPTED),
         Command::Sports(options) => norms::sports(py, &options, &INTERRUPTED),
+        Command::Zones(options) => norms::zones(py, &options, &INTERRUPTED),
         Command::Dim(options) => dim::dim(py, &options, &INTERRUPTED),
         Command::Goniometer(options) => goniometer::goniometer(py, &options, &INTERRUPTED),
         Command::Map(options) => map::map(py, &options, &INTERRUPTED),
