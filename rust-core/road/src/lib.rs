@@ -36,4 +36,4 @@ pub use required::{Class, KEYS, Requirement};
 pub use results::{Classed, Edge, Energy, Field, Footing, Illuminances, Observed, Results, SurfaceFigures, Verdict};
 pub use road::{Footpath, Period, Ranges, Reach, Road, Row, Side};
 pub use standard::Standard;
-pub use surface::{Surface, Table};
+pub use surface::{Material, Surface, Table};
