@@ -119,6 +119,51 @@ def test_centimetres_and_y_up_are_the_same_room(tmp_path, run):
         assert upright[zone]["average_lx"] == pytest.approx(level[zone]["average_lx"], abs=within), zone
 
 
+SLAB = """def Mesh "Floor"
+{
+    uniform token subdivisionScheme = "none"
+    int[] faceVertexCounts = [4, 4, 4, 4, 4, 4, 4]
+    int[] faceVertexIndices = [0, 1, 2, 3, 1, 8, 9, 2, 7, 6, 5, 4, 0, 4, 5, 1, 8, 1, 5, 6, 2, 9, 6, 7, 3, 2, 7, 4]
+    point3f[] points = [(0, 0, 0), (2, 0, 0), (2, 4, 0), (0, 4, 0), (0, 0, -1), (2, 0, -1), (6, 4, -1), (0, 4, -1), (6, 0, 0), (6, 4, 0)]
+}
+def Xform "Area"
+{
+    double2 gonio:grid:size = (6, 4)
+    double gonio:grid:height = 0.75
+    double3 xformOp:translate = (3, 2, 0)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+"""
+
+
+def test_floors_are_surfaces_and_grids_of_the_stage(tmp_path, run):
+    typed = figures(run, written(tmp_path, ROOM, more=SLAB))["rooms"][0]
+    for name in ("/Floor", "Floor", "Area"):
+        room = ROOM.replace("floor = [[0, 0, 0], [6, 0, 0], [6, 4, 0], [0, 4, 0]]", f'surface = "{name}"')
+        found = figures(run, written(tmp_path, room, more=SLAB))["rooms"][0]
+        for zone in ("background", "walls", "ceiling"):
+            assert len(found[zone]["points"]) == len(typed[zone]["points"])
+            assert found[zone]["average_lx"] == pytest.approx(typed[zone]["average_lx"], rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("name", "told"),
+    [("Roof", "surface 'Roof' is no grid and no surface of the stage"), ("Upright", "surface 'Upright' is level nowhere"), ("Desk", "may be any of /A/Desk, /B/Desk")],
+)
+def test_surfaces_that_are_no_floor_are_told(tmp_path, run, name, told):
+    quad = """def Mesh "{name}"
+{{
+    int[] faceVertexCounts = [3]
+    int[] faceVertexIndices = [0, 1, 2]
+    point3f[] points = [(0, 0, 0), (1, 0, 0), (0, {y}, {z})]
+}}
+"""
+    two = "".join(f'def Xform "{parent}"\n{{\n{quad.format(name="Desk", y=1, z=0)}}}\n' for parent in "AB")
+    room = ROOM.replace("floor = [[0, 0, 0], [6, 0, 0], [6, 4, 0], [0, 4, 0]]", f'surface = "{name}"')
+    done = run(*written(tmp_path, room, more=two + quad.format(name="Upright", y=0, z=1)))
+    assert done.returncode == 1 and told in done.stderr, done.stderr
+
+
 def test_lights_are_chosen_and_told(tmp_path, run):
     glow = """def Mesh "Panel"
 {

@@ -63,7 +63,7 @@ A plan:
   maintenance_factor = 0.8
   [[room]]
   name = \"Office\"
-  floor = [[0, 0, 0], [6, 0, 0], [6, 4, 0], [0, 4, 0]]
+  floor = [[0, 0, 0], [6, 0, 0], [6, 4, 0], [0, 4, 0]]   # or surface = \"Office/Floor\"
   height = 2.8                  # walls and ceiling; eye_height = 1.2 of cylindrical illuminance
   [[task]]
   name = \"Desk\"

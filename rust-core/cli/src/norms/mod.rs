@@ -1,6 +1,7 @@
 //! Commands whose plans are TOML files and whose figures are those of norms: what they have in common.
 
 mod emergency;
+mod floors;
 mod sports;
 mod zones;
 

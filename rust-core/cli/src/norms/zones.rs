@@ -1,9 +1,9 @@
 //! `gonio zones`.
 
-use super::{Found, leave_burning, loaded, measured, plan, show, surfaces_left_out};
+use super::{Found, floors::floor_of, leave_burning, loaded, measured, plan, show, surfaces_left_out};
 use crate::{arguments::ZonesOptions, messages::tell};
 use gonio::{
-    Diagnostic, Result,
+    Diagnostic, Error, Result,
     scene::{Integrator, Origin},
 };
 use gonio_norms::zones::{Figures, Plan, lines};
@@ -15,6 +15,8 @@ pub(crate) fn zones(py: Python<'_>, options: &ZonesOptions, interrupted: &'stati
     let (plan, options) = (plan(&options.plan, Plan::read)?, &options.norm);
     let (mut stage, up) = loaded(py, options, interrupted)?;
     let scene = &mut stage.scene;
+    let plan = plan.placed(|name| floor_of(scene, name, up))?;
+    plan.check().map_err(|problem| Error::setting("plan", problem))?;
     leave_burning(scene, (&plan.groups, &plan.lights), plan.maintenance_factor, "in the rooms")?;
     let Found { readings, mut told, .. } = measured(py, scene, (&plan.spots(up), &[]), (options, Integrator::Path), interrupted)?;
     let figures = Figures::new(&plan, up, &readings);

@@ -2,6 +2,7 @@
 
 use super::{
     parts::{Kind, Laid, Part},
+    patch::Raster,
     plan::Plan,
 };
 use crate::lit::{Lit, Reading, Spot};
@@ -12,6 +13,17 @@ use serde_json::{Map, Value, json};
 pub(crate) struct Zone {
     pub(crate) name: &'static str,
     pub(crate) lit: Lit,
+    /// Where its points lie; none of all walls together.
+    raster: Option<Raster>,
+}
+
+/// A part's light.
+#[derive(Clone, Debug)]
+struct Measured {
+    kind: Kind,
+    size: f64,
+    lit: Lit,
+    raster: Raster,
 }
 
 /// A room or a task with its zones.
@@ -22,7 +34,7 @@ pub(crate) struct Zones {
     pub(crate) room: Option<String>,
     pub(crate) zones: Vec<Zone>,
     /// Each wall, in the order of the floor's corners.
-    pub(crate) walls: Vec<Lit>,
+    pub(crate) walls: Vec<Zone>,
     /// Cylindrical over horizontal illuminance, of their means.
     pub(crate) modelling: Option<[f64; 2]>,
 }
@@ -54,7 +66,7 @@ impl Figures {
         let mut readings = readings.iter().map(|reading| reading.times(plan.maintenance_factor));
         let mut lit = |part: Part| {
             let own: Vec<Reading> = readings.by_ref().take(part.spots.len()).collect();
-            (part.kind, part.size, Lit::new((&part.spots, &own)))
+            Measured { kind: part.kind, size: part.size, lit: Lit::new((&part.spots, &own)), raster: part.raster }
         };
         let mut of = |parts: Vec<Part>| parts.into_iter().map(&mut lit).collect::<Vec<_>>();
         let rooms = (0..plan.rooms.len()).map(|room| Zones::new(&plan.rooms[room].name, None, of(laid.of_room(room)))).collect();
@@ -98,20 +110,21 @@ impl Figures {
 }
 
 impl Zones {
-    fn new(name: &str, room: Option<String>, parts: Vec<(Kind, f64, Lit)>) -> Self {
-        let of = |wanted: Kind| parts.iter().filter(move |(kind, ..)| *kind == wanted);
-        let one = |kind: Kind, name: &'static str| of(kind).next().map(|(.., lit)| Zone { name, lit: lit.clone() });
+    fn new(name: &str, room: Option<String>, parts: Vec<Measured>) -> Self {
+        let of = |wanted: Kind| parts.iter().filter(move |part| part.kind == wanted);
+        let zone = |name: &'static str, part: &Measured| Zone { name, lit: part.lit.clone(), raster: Some(part.raster.clone()) };
+        let one = |kind: Kind, name: &'static str| of(kind).next().map(|part| zone(name, part));
         let mut zones: Vec<Zone> = [(Kind::Task, "task"), (Kind::Surround, "surround"), (Kind::Background, "background")]
             .into_iter()
             .filter_map(|(kind, name)| one(kind, name))
             .collect();
-        let walls: Vec<Lit> = of(Kind::Wall).map(|(.., lit)| lit.clone()).collect();
+        let walls: Vec<Zone> = of(Kind::Wall).map(|part| zone("wall", part)).collect();
         if !walls.is_empty() {
-            zones.push(Zone { name: "walls", lit: Lit::joined(of(Kind::Wall).map(|(_, size, lit)| (lit, *size))) });
+            zones.push(Zone { name: "walls", lit: Lit::joined(of(Kind::Wall).map(|part| (&part.lit, part.size))), raster: None });
         }
         zones.extend(one(Kind::Ceiling, "ceiling"));
         zones.extend(one(Kind::Cylinder, "cylindrical"));
-        let mean = |kind: Kind| of(kind).next().and_then(|(.., lit)| lit.ends()).map(|[.., mean]| mean);
+        let mean = |kind: Kind| of(kind).next().and_then(|part| part.lit.ends()).map(|[.., mean]| mean);
         let modelling = mean(Kind::Cylinder).zip(mean(Kind::Level)).and_then(|(cylinder, level)| cylinder.over(level));
         Self { name: name.to_owned(), room, zones, walls, modelling }
     }
@@ -123,10 +136,10 @@ impl Zones {
             found.insert("room".into(), json!(self.room));
         }
         for zone in self.zones.iter().filter(|zone| !zone.lit.readings.is_empty()) {
-            found.insert(zone.name.into(), json_of(&zone.lit));
+            found.insert(zone.name.into(), zone.json());
         }
         if !self.walls.is_empty() {
-            found.insert("each_wall".into(), self.walls.iter().map(json_of).collect());
+            found.insert("each_wall".into(), self.walls.iter().map(Zone::json).collect());
         }
         found.insert("modelling".into(), json!(self.modelling.map(|[ratio, _]| ratio)));
         found.insert("modelling_error".into(), json!(self.modelling.map(|[_, error]| error)));
@@ -134,7 +147,15 @@ impl Zones {
     }
 }
 
-fn json_of(lit: &Lit) -> Value {
-    let [u0, ud] = lit.uniformities();
-    Value::Object(lit.json(&[("u0", u0), ("ud", ud)]))
+impl Zone {
+    fn json(&self) -> Value {
+        let [u0, ud] = self.lit.uniformities();
+        let mut found = self.lit.json(&[("u0", u0), ("ud", ud)]);
+        if let Some(Raster { size, spacing, cells }) = &self.raster {
+            found.insert("size".into(), json!(size));
+            found.insert("spacing_m".into(), json!(spacing));
+            found.insert("cells".into(), cells.iter().map(|(cell, _)| json!(cell)).collect());
+        }
+        Value::Object(found)
+    }
 }

@@ -1,7 +1,7 @@
 //! The zones of a plan and their points.
 
 use super::{
-    patch::{Patch, usual_spacing},
+    patch::{Patch, Raster, usual_spacing},
     plan::{Plan, Room, Task},
 };
 use crate::Spot;
@@ -29,13 +29,19 @@ pub(crate) enum Kind {
 pub(crate) struct Part {
     pub(crate) kind: Kind,
     pub(crate) spots: Vec<Spot>,
+    /// Where they lie on it.
+    pub(crate) raster: Raster,
     /// m².
     pub(crate) size: f64,
 }
 
 impl Part {
-    fn new(kind: Kind, spots: Vec<Spot>) -> Self {
-        Self { kind, spots, size: 1.0 }
+    fn new(kind: Kind, raster: Raster, spot: impl Fn([f64; 2]) -> Spot) -> Self {
+        Self { kind, spots: raster.cells.iter().map(|(_, at)| spot(*at)).collect(), raster, size: 1.0 }
+    }
+
+    fn on(patch: &Patch, kind: Kind, raster: Raster) -> Self {
+        Self { size: patch.size(), ..Self::new(kind, raster, |at| patch.spot(at)) }
     }
 }
 
@@ -73,16 +79,14 @@ impl<'a> Laid<'a> {
     /// The zones of a room: background, walls, ceiling, cylindrical and level illuminance.
     pub(crate) fn of_room(&self, number: usize) -> Vec<Part> {
         let (room, floor) = (&self.plan.rooms[number], &self.rooms[number]);
-        let on = |patch: &Patch, at: Vec<[f64; 2]>| at.into_iter().map(|at| patch.spot(at)).collect::<Vec<_>>();
-        let mut parts = vec![Part::new(Kind::Background, on(floor, self.background(number)))];
+        let mut parts = vec![Part::on(floor, Kind::Background, self.background(number))];
         for wall in Patch::walls(&room.floor, self.up, room.height) {
-            parts.push(Part { size: wall.size(), ..Part::new(Kind::Wall, on(&wall, wall.points(0.0, room.spacing))) });
+            parts.push(Part::on(&wall, Kind::Wall, wall.points(0.0, room.spacing)));
         }
         if let Some(ceiling) = Patch::lid(&room.floor, self.up, room.height) {
-            parts.push(Part::new(Kind::Ceiling, on(&ceiling, ceiling.points(0.0, room.spacing))));
+            parts.push(Part::on(&ceiling, Kind::Ceiling, ceiling.points(0.0, room.spacing)));
         }
-        let at = floor.points(border(room, floor), room.spacing);
-        parts.extend(self.cylinders(number, at.into_iter().map(|at| floor.place(at, room.eye_height))));
+        parts.extend(self.cylinders(number, floor, floor.points(border(room, floor), room.spacing)));
         parts
     }
 
@@ -90,29 +94,32 @@ impl<'a> Laid<'a> {
     pub(crate) fn of_task(&self, number: usize) -> Vec<Part> {
         let (task, patch) = (&self.plan.tasks[number], &self.tasks[number]);
         let points = patch.points(task.border, task.spacing);
-        let spots = |at: &[[f64; 2]]| at.iter().map(|at| patch.spot(*at)).collect();
-        let mut parts = vec![Part::new(Kind::Task, spots(&points)), Part::new(Kind::Surround, spots(&self.surround(number)))];
+        let mut parts = vec![Part::on(patch, Kind::Task, points.clone()), Part::on(patch, Kind::Surround, self.surround(number))];
         if let Some(room) = self.room_of(number).filter(|_| patch.is_level) {
-            let (floor, height) = (&self.rooms[room], self.plan.rooms[room].eye_height);
-            let over = points.into_iter().map(|at| floor.place(floor.flattened(patch.place(at, 0.0)), height));
-            parts.extend(self.cylinders(room, over));
+            parts.extend(self.cylinders(room, patch, points));
         }
         parts
     }
 
-    fn cylinders(&self, room: usize, places: impl Iterator<Item = [f64; 3]>) -> [Part; 2] {
-        let floor = &self.rooms[room];
-        let places: Vec<[f64; 3]> = places.filter(|place| floor.holds(floor.flattened(*place), 0.0)).collect();
-        let of = |spot: fn([f64; 3], [f64; 3]) -> Spot| places.iter().map(|place| spot(*place, self.up)).collect();
-        [Part::new(Kind::Cylinder, of(Spot::cylinder)), Part::new(Kind::Level, of(Spot::plane))]
+    /// Over points of a patch that are within a room, at its eyes' height.
+    fn cylinders(&self, room: usize, patch: &Patch, points: Raster) -> [Part; 2] {
+        let (floor, height) = (&self.rooms[room], self.plan.rooms[room].eye_height);
+        let over = |at: [f64; 2]| floor.flattened(patch.place(at, 0.0));
+        let within = points.keep(|at| floor.holds(over(*at), 0.0));
+        let level = within.clone();
+        let place = |at: [f64; 2]| floor.place(over(at), height);
+        [
+            Part::new(Kind::Cylinder, within, |at| Spot::cylinder(place(at), self.up)),
+            Part::new(Kind::Level, level, |at| Spot::plane(place(at), self.up)),
+        ]
     }
 
     /// Points of the band about a task, in its plane: those of level ones within its room and off all other tasks.
-    fn surround(&self, number: usize) -> Vec<[f64; 2]> {
+    fn surround(&self, number: usize) -> Raster {
         let (task, patch) = (&self.plan.tasks[number], &self.tasks[number]);
         let width = task.surround(patch);
         if width <= 0.0 {
-            return Vec::new();
+            return Raster::default();
         }
         let spacing = task.spacing.unwrap_or_else(|| usual_spacing(patch.sides().map(|side| side + 2.0 * width))).min(width / ROWS);
         let room = self.room_of(number).map(|room| &self.rooms[room]);
@@ -125,12 +132,12 @@ impl<'a> Laid<'a> {
                 && away <= width
                 && (!patch.is_level || (room.is_none_or(|room| !open(room)) && others().all(|(_, other)| open(other))))
         };
-        patch.raster(width, spacing).into_iter().filter(is_free).collect()
+        patch.raster(width, spacing).keep(is_free)
     }
 
     /// Points of a room's floor that are in no task's surround and not further from the nearest than the background reaches; those of a room without
     /// level tasks all over it.
-    fn background(&self, number: usize) -> Vec<[f64; 2]> {
+    fn background(&self, number: usize) -> Raster {
         let (room, floor) = (&self.plan.rooms[number], &self.rooms[number]);
         let own: Vec<(&Task, &Patch)> = (0..self.tasks.len())
             .filter(|task| self.room_of(*task) == Some(number) && self.tasks[*task].is_level)
@@ -141,7 +148,7 @@ impl<'a> Laid<'a> {
             let away = own.iter().map(|(task, patch)| patch.distance(patch.flattened(place)) - task.surround(patch));
             away.min_by(f64::total_cmp).is_none_or(|away| away > 0.0 && away <= room.background)
         };
-        floor.points(border(room, floor), room.spacing).into_iter().filter(beyond).collect()
+        floor.points(border(room, floor), room.spacing).keep(beyond)
     }
 }
 

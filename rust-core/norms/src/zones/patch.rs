@@ -15,6 +15,25 @@ const SLACK: f64 = 1e-9;
 /// Metres that points are apart at most (EN 12464-1).
 const FARTHEST: f64 = 10.0;
 
+/// Cells of a raster, those that count.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Raster {
+    /// Cells along and across.
+    pub(crate) size: [usize; 2],
+    /// Metres from one to the next.
+    pub(crate) spacing: [f64; 2],
+    /// Their numbers, row by row, and middles.
+    pub(crate) cells: Vec<(usize, [f64; 2])>,
+}
+
+impl Raster {
+    /// Those whose middle holds.
+    pub(crate) fn keep(mut self, holds: impl Fn(&[f64; 2]) -> bool) -> Self {
+        self.cells.retain(|(_, at)| holds(at));
+        self
+    }
+}
+
 /// A flat outline.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Patch {
@@ -109,26 +128,25 @@ impl Patch {
         sides.iter().map(|side| side / spacing + 1.0).product()
     }
 
-    /// Middles of even cells over its extent, which `grow` metres on each side make larger.
-    pub(crate) fn raster(&self, grow: f64, spacing: f64) -> Vec<[f64; 2]> {
+    /// Even cells over its extent, which `grow` metres on each side make larger.
+    pub(crate) fn raster(&self, grow: f64, spacing: f64) -> Raster {
         let [low, high] = extent(&self.flat);
-        let stations = |k: usize| -> Vec<f64> {
-            let (from, length) = (low[k] - grow, high[k] - low[k] + 2.0 * grow);
-            let count = if length > SLACK { (length / spacing).round().max(1.0) } else { 0.0 };
-            (0..count as usize).map(|cell| from + (cell as f64 + 0.5) * length / count).collect()
-        };
-        let [us, vs] = [stations(0), stations(1)];
-        vs.iter().flat_map(|v| us.iter().map(move |u| [*u, *v])).collect()
+        let lengths = [0, 1].map(|k| high[k] - low[k] + 2.0 * grow);
+        let size = lengths.map(|length| if length > SLACK { (length / spacing).round().max(1.0) as usize } else { 0 });
+        let spacing = [0, 1].map(|k| lengths[k] / size[k].max(1) as f64);
+        let middle = |cell: usize| [cell % size[0], cell / size[0]].map(|number| number as f64 + 0.5);
+        let place = |[u, v]: [f64; 2]| [low[0] - grow + u * spacing[0], low[1] - grow + v * spacing[1]];
+        Raster { size, spacing, cells: (0..size[0] * size[1]).map(|cell| (cell, place(middle(cell)))).collect() }
     }
 
     /// Points within it and off its edges.
-    pub(crate) fn points(&self, border: f64, spacing: Option<f64>) -> Vec<[f64; 2]> {
+    pub(crate) fn points(&self, border: f64, spacing: Option<f64>) -> Raster {
         let inner = self.sides().map(|side| side - 2.0 * border);
         if inner.iter().any(|side| *side <= 0.0) {
-            return Vec::new();
+            return Raster::default();
         }
         let all = self.raster(-border, spacing.unwrap_or_else(|| usual_spacing(inner)));
-        all.into_iter().filter(|at| self.holds(*at, border)).collect()
+        all.keep(|at| self.holds(*at, border))
     }
 
     /// Whether a place is within it and off its edges.

@@ -33,7 +33,10 @@ pub struct Room {
     /// What it is called.
     pub name: String,
     /// Corners of its level floor.
+    #[serde(default)]
     pub floor: Vec<[f64; 3]>,
+    /// In their place a grid or a surface of the stage that covers the floor, by its name or the end of its path.
+    pub surface: Option<String>,
     /// From the floor to the ceiling.
     pub height: f64,
     /// What is left out of its floor along walls, and of cylindrical illuminance; without it 15 % of the narrower side, half a metre at most (EN 12464-1).
@@ -87,7 +90,24 @@ impl Plan {
         Ok(plan)
     }
 
-    fn check(&self) -> Result<(), String> {
+    /// The same with floors for the surfaces that rooms name.
+    ///
+    /// # Errors
+    /// What `floor_of` says.
+    pub fn placed<E>(mut self, floor_of: impl Fn(&str) -> Result<Vec<[f64; 3]>, E>) -> Result<Self, E> {
+        for room in &mut self.rooms {
+            if let Some(surface) = &room.surface {
+                room.floor = floor_of(surface)?;
+            }
+        }
+        Ok(self)
+    }
+
+    /// Says what is wrong with numbers and outlines; floors of surfaces are known once the plan is [`placed`](Self::placed).
+    ///
+    /// # Errors
+    /// The first thing that is.
+    pub fn check(&self) -> Result<(), String> {
         if self.rooms.is_empty() && self.tasks.is_empty() {
             return Err("nothing to measure, expected [[room]] or [[task]]".to_owned());
         }
@@ -110,7 +130,11 @@ impl Room {
         within("border", self.border.unwrap_or(0.0), [0.0, 100.0]).map_err(of)?;
         within("background", self.background, [0.0, 1000.0]).map_err(of)?;
         within("eye_height", self.eye_height, [0.0, self.height]).map_err(of)?;
-        check_area("floor", &self.floor, self.spacing).map_err(of)
+        match (&self.surface, self.floor.is_empty()) {
+            (Some(_), true) => Ok(()),
+            (None, true) => Err(of("expected a floor, or the surface that is one".to_owned())),
+            _ => check_area("floor", &self.floor, self.spacing).map_err(of),
+        }
     }
 }
 

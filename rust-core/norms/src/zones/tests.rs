@@ -35,6 +35,10 @@ fn tasks_have_the_norms_points() {
     assert_eq!(desk.len(), 50);
     assert!(close(desk[0][0], 2.08) && close(desk[0][1], 1.08) && close(desk[0][2], 0.755), "{:?}", desk[0]);
     assert_eq!(found["tasks"][0]["room"], "Office");
+    let task = &found["tasks"][0]["task"];
+    assert_eq!((&task["size"], task["cells"].as_array().map(Vec::len)), (&serde_json::json!([10, 5]), Some(50)));
+    let around = &found["tasks"][0]["surround"];
+    assert_eq!(around["cells"].as_array().map(Vec::len), around["points"].as_array().map(Vec::len));
 }
 
 #[test]
@@ -133,9 +137,21 @@ fn doubts_name_what_has_no_point_and_no_room() {
 }
 
 #[test]
+fn floors_are_those_of_surfaces() {
+    let named = plan(&ROOM.replace("floor = [[0, 0, 0], [6, 0, 0], [6, 4, 0], [0, 4, 0]]", "surface = 'Floor'"));
+    let floor = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [6.0, 4.0, 0.0], [0.0, 4.0, 0.0]];
+    let placed = named.clone().placed(|name| if name == "Floor" { Ok(floor.clone()) } else { Err(()) }).expect("a floor");
+    assert_eq!(placed.check(), Ok(()));
+    assert_eq!(placed.spots(UP), plan(ROOM).spots(UP));
+    let line = named.placed(|_| Ok::<_, ()>(vec![[0.0; 3]; 3])).expect("a line");
+    assert!(line.check().expect_err("no area").contains("lie in one plane"));
+}
+
+#[test]
 fn what_is_no_plan_is_told() {
     for (text, message) in [
         ("".to_owned(), "nothing to measure"),
+        (ROOM.replace("floor", "#"), "expected a floor, or the surface that is one"),
         (ROOM.replace("height", "hight"), "unknown field `hight`"),
         (ROOM.replace("2.8", "0"), "height is 0"),
         (ROOM.replace("[6, 4, 0]", "[6, 4, 1]"), "lie in one plane"),

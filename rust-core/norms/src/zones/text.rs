@@ -23,7 +23,7 @@ fn of_zones(owner: &Zones) -> Vec<String> {
     for zone in &owner.zones {
         lines.extend(of_lit(zone.name, &zone.lit));
         if zone.name == "walls" {
-            lines.extend(owner.walls.iter().enumerate().flat_map(|(number, wall)| of_lit(&format!("  wall {}", number + 1), wall)));
+            lines.extend(owner.walls.iter().enumerate().flat_map(|(number, wall)| of_lit(&format!("  wall {}", number + 1), &wall.lit)));
         }
     }
     lines.extend(owner.modelling.map(|[ratio, error]| format!("  modelling, cylindrical to horizontal: {ratio:.3} ± {error:.3}")));
