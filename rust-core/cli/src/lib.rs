@@ -60,6 +60,7 @@ mod volume;
 mod wavelengths;
 
 pub use farm::farm_scene;
+pub use road::road_figures;
 pub use view::{Viewed, view_scene};
 
 use arguments::{Arguments, Command};

@@ -68,6 +68,19 @@ fn points_are_as_many_as_the_norm_says() {
 }
 
 #[test]
+fn the_drivers_view_has_the_same_numbers() {
+    let road = road(vec![row(luminaire(|_, _| 1000.0), Side::Opposite)]);
+    let results = road.evaluate();
+    let view = crate::sheet::view(&road, &results, 2);
+    for value in results.observers[1].luminance.iter().flatten() {
+        assert!(view.contains(&format!(">{}</text>", gonio_formats::short_number(*value))), "{value}");
+    }
+    assert_eq!(view.matches("<polygon").count(), 1 + results.field.along * results.field.across);
+    assert!(!view.contains("NaN") && !view.contains("inf"));
+    assert!(!crate::sheet::view(&road, &results, 9).contains("<polygon"));
+}
+
+#[test]
 fn the_first_class_that_is_met_is_told() {
     use crate::{Class, Requirement};
     let mut road = road(vec![row(luminaire(|_, _| 1000.0), Side::Opposite)]);
