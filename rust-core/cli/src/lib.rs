@@ -139,6 +139,11 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
         Command::Bench(options) => py.detach(|| bench::bench(&options, &INTERRUPTED)),
         Command::Completion(options) => completion::completion(&options),
     };
+    status_of(result)
+}
+
+/// The process's status; what went wrong is said.
+fn status_of(result: gonio::Result<i32>) -> i32 {
     match result.and_then(|status| check_printed().map(|()| status)) {
         Ok(status) => status,
         Err(Error::Cancelled) => {
