@@ -126,6 +126,7 @@ fuzz:
 	cargo build --release --quiet -p gonio-formats --example fuzz
 	for reader in $(FUZZED); do cargo run --release --quiet -p gonio-formats --example fuzz -- $$reader 600 || exit 1; done
 	cargo run --release --quiet -p gonio-volume --example fuzz -- 600
+	for kind in hbjson rad; do cargo run --release --quiet -p gonio-models --example fuzz -- $$kind 600 || exit 1; done
 
 # The long checks: all luxtest frames, kill tests, other renderers where they can be had, Blender's export timed. Suites whose files have the same names
 # run one after the other.

@@ -11,6 +11,7 @@ from .bake_illuminance import GONIO_OT_bake_illuminance
 from .dim_lights import GONIO_OT_dim_lights
 from .expose_for_daylight import GONIO_OT_expose_for_daylight
 from .from_cycles import GONIO_OT_settings_from_cycles
+from .hang_luminaire import GONIO_FH_luminaire, GONIO_OT_hang_luminaire
 from .illumination_map import GONIO_OT_illumination_map
 from .measure_grids import GONIO_OT_measure_grids
 from .measure_luminaire import GONIO_OT_measure_luminaire
@@ -27,6 +28,8 @@ CLASSES = (
     GONIO_OT_bake_illuminance,
     GONIO_OT_dim_lights,
     GONIO_OT_expose_for_daylight,
+    GONIO_OT_hang_luminaire,
+    GONIO_FH_luminaire,
     GONIO_OT_illumination_map,
     GONIO_OT_measure_grids,
     GONIO_OT_measure_luminaire,

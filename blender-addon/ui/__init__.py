@@ -4,6 +4,7 @@
 import bpy
 
 from . import (
+    add_menu,
     bake,
     curves,
     film,
@@ -63,11 +64,13 @@ def register() -> None:
     for panel in PANELS:
         bpy.utils.register_class(panel)
     render_menu.register()
+    add_menu.register()
     report.register()
 
 
 def unregister() -> None:
     report.unregister()
+    add_menu.unregister()
     render_menu.unregister()
     for panel in reversed(PANELS):
         bpy.utils.unregister_class(panel)

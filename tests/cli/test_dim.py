@@ -221,3 +221,61 @@ def test_power_is_the_files_as_far_as_a_lamp_is_dimmed(run, tmp_path):
     assert found["diagnostics"] == []
     by_python = gonio.dim(gonio.load_usd(path), ["Floor.mean>=1"], samples=64)
     assert {group["name"]: group["watts_full"] for group in by_python["groups"]} == watts
+
+
+@pytest.fixture
+def tunable(tmp_path):
+    """A warm and a cool lamp at one place, so that the colour is the same all over the floor."""
+    path = tmp_path / "tunable.usda"
+    spectra = (("Warm", "2700K"), ("Cool", "D65"))
+    path.write_text(HEAD + "".join(lamp(name, 0, 0, 6000, name, f'string gonio:spectrum = "{spectrum}"') for name, spectrum in spectra))
+    return path
+
+
+def test_two_spectra_are_mixed_to_a_colour_temperature(run, tunable, tmp_path):
+    layer = tmp_path / "dimmed.usda"
+    targets = ("--target", "Floor.mean=60+-1", "--target", "Floor.cct=4000+-20")
+    found = dimmed(run, tunable, "--grid", "/Floor", "--spp", 64, "--quiet", *targets, "-o", layer)
+    mean, cct = found["targets"]
+    assert cct["verdict"] != "not_met" and abs(cct["reached"] - 4000) < 21 and abs(mean["reached"] - 60) < 1.5
+    # The mixture of both spectra, by the levels that were found: each brings as many lumens at level 1.
+    nm, mixed = np.arange(380.0, 781.0), 0.0
+    for name, spectrum in (("Warm", "2700K"), ("Cool", "D65")):
+        lamp_spectrum = gonio.illuminant(spectrum)
+        power = np.interp(nm, lamp_spectrum["wavelengths_nm"], lamp_spectrum["power"])
+        lumens = power.sum() * gonio.spectrum_figures(nm, power)["ler"]
+        mixed = mixed + next(group["level"] for group in found["groups"] if group["name"] == name) * power / lumens
+    assert gonio.spectrum_figures(nm, mixed)["cct"] == pytest.approx(cct["reached"], abs=3)
+    # What is measured of the layer afterwards.
+    measured = json.loads(run("measure", layer, "--grid", "/Floor", "--spp", 64, "--quantity", "cct", "--quiet", "--json").stdout)["grids"][0]
+    assert measured["average"]["value"] == pytest.approx(cct["reached"], abs=3)
+    assert "colours" in found["areas"][0] and len(found["areas"][0]["colours"]) == len(found["areas"][0]["points"])
+
+
+def test_python_mixes_the_same(run, tunable):
+    scene = gonio.load_usd(tunable)
+    scene.add_meter((0, 0, 0.01), name="Desk")
+    found = gonio.dim(scene, ["Desk.mean>=50", "Desk.cct>=5000"], samples=64)
+    assert found["met"] and found["targets"][1]["reached"] >= 4999
+    with pytest.raises(gonio.Error, match="colour alone say nothing"):
+        gonio.dim(scene, ["Desk.cct>=5000"], samples=64)
+
+
+@pytest.mark.parametrize(
+    ("target", "more", "told"),
+    [
+        ("Floor.cct=4000", (), "a tolerance is missing, as in NAME.cct=4000+-100"),
+        ("Floor.cct>=100", (), "expected a temperature from 1000 to 25000 K"),
+        ("Floor.cct>=4000", (), "colour alone say nothing of how much light there is"),
+        ("Floor.cct>=4000", ("--quantity", "cylindrical", "--target", "Floor.mean>=1"), "measures cylindrical, expected illuminance or cct"),
+    ],
+)
+def test_colours_that_cannot_be_asked_for(run, tunable, target, more, told):
+    done = run("dim", tunable, *QUICK, "--target", target, *more)
+    assert done.returncode == 1 and told in done.stderr and done.stderr.count("\n") == 1, done.stderr
+
+
+def test_a_grid_of_temperatures_has_colours_alone(run, tunable):
+    words = ("--grid", "/Floor", "--spp", 64, "--quiet", "--quantity", "cct", "--at", "0,0,0.01")
+    done = run("dim", tunable, *words, "--target", "Floor.mean>=3000")
+    assert done.returncode == 1 and "measures a colour: name NAME.cct" in done.stderr

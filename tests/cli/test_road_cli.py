@@ -289,7 +289,7 @@ def test_text_sheet_and_page(run, folder):
     assert "Lines of equal luminance for the observer in lane 3" in (folder / "sheet.svg").read_text()
     run("road", folder / "road.toml", "-o", folder / "sheet.html", "--title", "Mill <Road>")
     page = (folder / "sheet.html").read_text()
-    assert "<h1>Mill &lt;Road&gt;</h1>" in page and page.count("<svg") == 5
+    assert "<h1>Mill &lt;Road&gt;</h1>" in page and page.count("<svg") == 8 and "What the driver in lane 3 sees: luminance in cd/m²" in page
     run("road", folder / "road.toml", "-o", folder / "sheet.png")
     assert (folder / "sheet.png").read_bytes().startswith(b"\x89PNG")
 
@@ -373,3 +373,24 @@ def test_tilts_that_are_tried_have_their_lamps_factor(run, folder):
     (folder / "road.toml").write_text(toml(ROAD, [row | {"tilt": 15, "spacing": found["optimised"]["spacing"]}], []))
     alone = json.loads(run("road", folder / "road.toml", "--json").stdout)
     assert found["l_av"] == pytest.approx(alone["l_av"], rel=1e-6) and found["l_av"] >= 0.2
+
+
+def test_python_has_the_same_figures(run, folder):
+    gonio = pytest.importorskip("gonio")
+    road, rows, paths = CASES["staggered table"]
+    (folder / "road.toml").write_text(toml(road, rows, paths))
+    printed = json.loads(run("road", folder / "road.toml", "--json").stdout)
+    assert gonio.road(folder / "road.toml") == printed
+    (folder / "road.toml").write_text(toml(ROAD, [ROW], []).replace("lanes = 2", "lanes = 0"))
+    with pytest.raises(gonio.FormatError, match=r"road.toml:3: \[road\]: lanes is 0"):
+        gonio.road(folder / "road.toml")
+    with pytest.raises(FileNotFoundError):
+        gonio.road(folder / "none.toml")
+    wanted = "[required]\nl_av = 0.35\n[optimise]\nspacing = [20, 60]\nspacing_step = 0.1\n"
+    (folder / "road.toml").write_text(toml(ROAD, [ROW], []) + wanted)
+    assert gonio.road(folder / "road.toml")["optimised"]["spacing"] >= 20
+    # Nothing meets it, so that all of 24,000 roads would be tried.
+    wanted = "[required]\nl_av = 50\n[optimise]\nspacing = [20, 60]\nspacing_step = 0.1\nheight = [6, 12]\nheight_step = 0.1\n"
+    (folder / "road.toml").write_text(toml(ROAD, [ROW], []) + wanted)
+    with pytest.raises(gonio.Cancelled):
+        gonio.road(folder / "road.toml", cancelled=lambda: True)

@@ -47,7 +47,7 @@ const CRATES: [(&str, &[&str]); 23] = [
     ("sky", &[]),
     ("annual", &["formats", "simd", "sky"]),
     ("share", &[]),
-    ("dimming", &[]),
+    ("dimming", &["spectrum"]),
     ("verdict", &["formats"]),
     ("accel", &["simd"]),
     ("image", &["simd"]),

@@ -60,6 +60,7 @@ mod volume;
 mod wavelengths;
 
 pub use farm::farm_scene;
+pub use road::road_figures;
 pub use view::{Viewed, view_scene};
 
 use arguments::{Arguments, Command};
@@ -122,6 +123,7 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
         Command::Measure(options) => measure::measure(py, &options, &INTERRUPTED),
         Command::Emergency(options) => norms::emergency(py, &options, &INTERRUPTED),
         Command::Sports(options) => norms::sports(py, &options, &INTERRUPTED),
+        Command::Zones(options) => norms::zones(py, &options, &INTERRUPTED),
         Command::Dim(options) => dim::dim(py, &options, &INTERRUPTED),
         Command::Goniometer(options) => goniometer::goniometer(py, &options, &INTERRUPTED),
         Command::Map(options) => map::map(py, &options, &INTERRUPTED),
@@ -137,6 +139,11 @@ pub fn run(py: Python<'_>, arguments: Vec<String>) -> i32 {
         Command::Bench(options) => py.detach(|| bench::bench(&options, &INTERRUPTED)),
         Command::Completion(options) => completion::completion(&options),
     };
+    status_of(result)
+}
+
+/// The process's status; what went wrong is said.
+fn status_of(result: gonio::Result<i32>) -> i32 {
     match result.and_then(|status| check_printed().map(|()| status)) {
         Ok(status) => status,
         Err(Error::Cancelled) => {

@@ -24,24 +24,12 @@ pub(super) fn road(options: &RoadOptions, interrupted: &AtomicBool) -> Result<i3
         check_ending("output", output, ENDINGS)?;
         check_targets([output])?;
     }
-    let read = Road::read(&options.file).map_err(told)?;
-    let stopped = || interrupted.load(Ordering::Relaxed);
-    let found = read.optimise(&stopped);
-    if stopped() {
-        return Err(Error::Cancelled);
-    }
-    let (road, results, best) = match found {
-        Some((road, results, best)) => (road, results, Some(best)),
-        None => {
-            let results = read.evaluate();
-            (read, results, None)
-        }
-    };
+    let (road, results, best) = calculated(&options.file, &|| interrupted.load(Ordering::Relaxed))?;
     if let Some(output) = &options.output {
         put(output, &drawn(options, output, &road, &results)?)?;
     }
     if options.json {
-        print(&as_json(options, &results, best.as_ref()).to_string());
+        print(&as_json(&options.file, &results, best.as_ref()).to_string());
     } else {
         best.iter().for_each(|best| print(&text::optimised(best)));
         text::lines(&results).iter().for_each(|line| print(line));
@@ -57,10 +45,34 @@ fn told(error: RoadError) -> Error {
     }
 }
 
-fn as_json(options: &RoadOptions, results: &Results, best: Option<&Best>) -> Value {
+/// What `gonio road --json` prints of a road's file; `stopped` ends a search.
+///
+/// # Errors
+/// A file that is no road's, with its line; being stopped.
+pub fn road_figures(file: &Path, stopped: &dyn Fn() -> bool) -> Result<Value> {
+    calculated(file, stopped).map(|(_, results, best)| as_json(file, &results, best.as_ref()))
+}
+
+/// The road of a file, or the best that it asks to look for.
+fn calculated(file: &Path, stopped: &dyn Fn() -> bool) -> Result<(Road, Results, Option<Best>)> {
+    let read = Road::read(file).map_err(told)?;
+    let found = read.optimise(stopped);
+    if stopped() {
+        return Err(Error::Cancelled);
+    }
+    Ok(match found {
+        Some((road, results, best)) => (road, results, Some(best)),
+        None => {
+            let results = read.evaluate();
+            (read, results, None)
+        }
+    })
+}
+
+fn as_json(file: &Path, results: &Results, best: Option<&Best>) -> Value {
     let mut value = json!(results);
     if let Value::Object(object) = &mut value {
-        object.insert("file".into(), json!(options.file.to_string_lossy()));
+        object.insert("file".into(), json!(file.to_string_lossy()));
         object.insert("optimised".into(), json!(best));
     }
     value
@@ -102,6 +114,7 @@ fn page(options: &RoadOptions, title: String, road: &Road, results: &Results) ->
     for seen in &results.observers {
         let caption = format!("Luminance for the observer in lane {}, in cd/m²", seen.lane);
         page.wide_drawing(&sheet::isoluminance(road, results, seen.lane), &caption);
+        page.wide_drawing(&sheet::view(road, results, seen.lane), &format!("What the driver in lane {} sees", seen.lane));
     }
     page.section("All values");
     page.list(&text::lines(results));

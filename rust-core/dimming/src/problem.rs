@@ -1,6 +1,11 @@
 //! What is to be dimmed, and where the light is measured.
 
-use crate::{error::DimmingError, estimate::Estimate, target::Target};
+use crate::{
+    colour::{Colour, Light},
+    error::DimmingError,
+    estimate::Estimate,
+    target::Target,
+};
 
 /// Lights that are dimmed together.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,6 +41,8 @@ pub struct Area {
     pub name: String,
     /// Its points; one at least.
     pub points: Vec<Point>,
+    /// The colours of their light, where targets want them; else empty.
+    pub colours: Vec<Colour>,
 }
 
 impl Area {
@@ -98,6 +105,12 @@ impl Problem {
             let fits = |point: &Point| {
                 point.of_groups.len() == self.groups.len() && point.of_groups.iter().chain([&point.fixed]).all(Estimate::is_finite)
             };
+            let is_coloured = |colour: &Colour| {
+                colour.of_groups.len() == self.groups.len() && colour.of_groups.iter().chain([&colour.fixed]).all(Light::is_finite)
+            };
+            if !area.colours.iter().all(is_coloured) {
+                return wrong(format!("{} has no colour for every group", area.name));
+            }
             if area.points.is_empty() || !area.points.iter().all(fits) {
                 return wrong(format!("{} has no figure for every group, or none at all", area.name));
             }
@@ -109,6 +122,11 @@ impl Problem {
         if !(self.errors_kept.is_finite() && self.errors_kept >= 0.0) {
             return wrong(format!("{} standard errors cannot be kept, expected a number of zero or more", self.errors_kept));
         }
-        self.targets.iter().try_for_each(|target| self.area(target).map(drop))
+        self.targets.iter().try_for_each(|target| match self.area(target)? {
+            area if target.limit.is_of_colour() && area.colours.is_empty() => {
+                wrong(format!("the colour of {} was not measured", area.name))
+            }
+            _ => Ok(()),
+        })
     }
 }

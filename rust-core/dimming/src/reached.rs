@@ -51,7 +51,7 @@ impl Verdict {
 pub struct Reached {
     /// The target as it was written.
     pub text: String,
-    /// The figure that it limits, in its unit.
+    /// The figure that it limits, in its unit; not a number of a colour temperature of light that is not white.
     pub reached: f64,
     /// Its standard error. That of a least or greatest point is this point's; noise moves such points outwards.
     pub error: f64,
@@ -70,6 +70,7 @@ impl Reached {
         let by_value = |a: &Estimate, b: &Estimate| a.value.total_cmp(&b.value);
         let least = values().min_by(by_value).unwrap_or_default();
         let greatest = values().max_by(by_value).unwrap_or_default();
+        let kelvin = || area.temperature(levels);
         let (figure, margin, limit) = match target.limit {
             Limit::MeanAtLeast(limit) => (mean, mean.value - limit, limit),
             Limit::MeanAtMost(limit) => (mean, limit - mean.value, limit),
@@ -80,6 +81,9 @@ impl Reached {
                 let share = least.share_of(mean);
                 (share, share.value - limit, limit)
             }
+            Limit::CctAtLeast(limit) => (kelvin(), kelvin().value - limit, limit),
+            Limit::CctAtMost(limit) => (kelvin(), limit - kelvin().value, limit),
+            Limit::Cct(limit, by) => (kelvin(), by - (kelvin().value - limit).abs(), limit),
         };
         let verdict = Verdict::new(margin, figure.error, limit);
         Ok(Self { text: target.text.clone(), reached: figure.value, error: figure.error, margin, verdict })

@@ -3,7 +3,7 @@
 use crate::{
     error::DimmingError,
     estimate::Estimate,
-    problem::{Point, Problem},
+    problem::{Area, Point, Problem},
     target::{Limit, Target},
 };
 
@@ -49,7 +49,20 @@ fn expressions(problem: &Problem, target: &Target) -> Result<(f64, Vec<Point>), 
             let scale = unit(share * mean.at(&full).value);
             (scale, points().map(|point| combined(point, 1.0, &mean, -share)).collect())
         }
+        Limit::CctAtLeast(least) => (divisor(problem, area), vec![area.cooler_than(least)]),
+        Limit::CctAtMost(most) => (divisor(problem, area), vec![warmer(&area.cooler_than(most))]),
+        Limit::Cct(value, by) => (divisor(problem, area), vec![area.cooler_than(value - by), warmer(&area.cooler_than(value + by))]),
     })
+}
+
+/// By which the side of an isotherm is about a relative temperature.
+fn divisor(problem: &Problem, area: &Area) -> f64 {
+    let full: Vec<f64> = problem.groups.iter().map(|group| group.range[1]).collect();
+    Some(area.divisor(&full)).filter(|divisor| *divisor > 0.0).unwrap_or(1.0)
+}
+
+fn warmer(cooler: &Point) -> Point {
+    Point { fixed: cooler.fixed.times(-1.0), of_groups: cooler.of_groups.iter().map(|group| group.times(-1.0)).collect() }
 }
 
 fn above(point: &Point, least: f64) -> Point {

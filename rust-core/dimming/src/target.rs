@@ -1,6 +1,7 @@
 //! What is asked of an area, and how it is written.
 
 use crate::error::DimmingError;
+use gonio_spectrum::{HIGHEST_CCT, LOWEST_CCT};
 
 /// A limit of an area's figures, in the unit of what is measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,6 +18,19 @@ pub enum Limit {
     GreatestAtMost(f64),
     /// The least point is this share of the mean at least.
     UniformityAtLeast(f64),
+    /// The light of all points together has this correlated colour temperature at least, K.
+    CctAtLeast(f64),
+    /// At most.
+    CctAtMost(f64),
+    /// This one, give or take the second number.
+    Cct(f64, f64),
+}
+
+impl Limit {
+    /// Whether it limits the light's colour.
+    pub fn is_of_colour(self) -> bool {
+        matches!(self, Self::CctAtLeast(_) | Self::CctAtMost(_) | Self::Cct(..))
+    }
 }
 
 /// What is asked of an area.
@@ -31,11 +45,12 @@ pub struct Target {
 }
 
 /// What is expected of a target's text.
-const EXPECTED: &str = "expected NAME.mean>=LX, NAME.mean<=LX, NAME.mean=LX+-TOLERANCE, NAME.min>=LX, NAME.max<=LX or NAME.uo>=SHARE";
+const EXPECTED: &str =
+    "expected NAME.mean>=LX, NAME.mean<=LX, NAME.mean=LX+-TOLERANCE, NAME.min>=LX, NAME.max<=LX, NAME.uo>=SHARE or NAME.cct=K+-TOLERANCE";
 
 impl Target {
-    /// Reads `NAME.mean>=500`, `NAME.mean<=800`, `NAME.mean=500+-25`, `NAME.min>=200`, `NAME.max<=1000` or `NAME.uo>=0.6`; of a name without a figure
-    /// the mean is meant, which is a meter's reading. `±` does for `+-`.
+    /// Reads `NAME.mean>=500`, `NAME.mean<=800`, `NAME.mean=500+-25`, `NAME.min>=200`, `NAME.max<=1000`, `NAME.uo>=0.6` or `NAME.cct=4000+-100`; of a
+    /// name without a figure the mean is meant, which is a meter's reading. `±` does for `+-`.
     ///
     /// # Errors
     /// Other texts, numbers that are none or below 0, and limits that no linear program knows, such as a greatest value that is at least so much.
@@ -45,7 +60,7 @@ impl Target {
             ["<=", ">=", "="].into_iter().find_map(|sign| text.split_once(sign).map(|(left, right)| (left.trim(), sign, right.trim())));
         let (left, sign, right) = split.ok_or_else(|| wrong(EXPECTED))?;
         let (area, figure) = match left.rsplit_once('.') {
-            Some((area, figure)) if matches!(figure, "mean" | "min" | "max" | "uo") => (area, figure),
+            Some((area, figure)) if matches!(figure, "mean" | "min" | "max" | "uo" | "cct") => (area, figure),
             _ => (left, "mean"),
         };
         let (right, tolerance) =
@@ -57,6 +72,13 @@ impl Target {
         let value = number(right)?;
         let limit = match (figure, sign, tolerance) {
             _ if area.is_empty() => return Err(wrong(EXPECTED)),
+            ("cct", ..) if !(LOWEST_CCT..=HIGHEST_CCT).contains(&value) => {
+                return Err(wrong(&format!("expected a temperature from {LOWEST_CCT} to {HIGHEST_CCT} K")));
+            }
+            ("cct", "=", Some(by)) => Limit::Cct(value, number(by)?),
+            ("cct", "=", None) => return Err(wrong("a tolerance is missing, as in NAME.cct=4000+-100")),
+            ("cct", ">=", None) => Limit::CctAtLeast(value),
+            ("cct", "<=", None) => Limit::CctAtMost(value),
             ("mean", "=", Some(by)) => Limit::Mean(value, number(by)?),
             ("mean", "=", None) => return Err(wrong("a tolerance is missing, as in NAME.mean=500+-25")),
             ("mean", ">=", None) => Limit::MeanAtLeast(value),

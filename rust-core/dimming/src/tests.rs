@@ -1,5 +1,7 @@
 //! Closed forms, and corners of small programs one by one.
 
+mod colours;
+
 use super::*;
 
 fn group(name: &str, watts: f64) -> Group {
@@ -15,7 +17,7 @@ fn problem(watts: &[f64], points: &[&[f64]], targets: &[&str]) -> Problem {
     };
     Problem {
         groups: watts.iter().enumerate().map(|(k, watts)| group(&format!("g{k}"), *watts)).collect(),
-        areas: vec![Area { name: "/Room/Plane".into(), points: points.iter().map(point).collect() }],
+        areas: vec![Area { name: "/Room/Plane".into(), points: points.iter().map(point).collect(), colours: Vec::new() }],
         targets: targets.iter().map(|text| Target::parse(text).expect("a target")).collect(),
         goal: Goal::LeastPower,
         errors_kept: 0.0,

@@ -2,13 +2,25 @@
 
 use serde_json::{Map, Value, json};
 
-/// A point and the normal of the plane that is lit there.
+/// A point and the plane, or the small cylinder, that is lit there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spot {
     /// In the scene's space, metres.
     pub position: [f64; 3],
-    /// Of length 1 on floors.
+    /// The plane's normal, of length 1 on floors, or the cylinder's axis.
     pub normal: [f64; 3],
+    /// Whether the mean over a cylinder's side is meant.
+    pub is_cylinder: bool,
+}
+
+impl Spot {
+    pub(crate) fn plane(position: [f64; 3], normal: [f64; 3]) -> Self {
+        Self { position, normal, is_cylinder: false }
+    }
+
+    pub(crate) fn cylinder(position: [f64; 3], axis: [f64; 3]) -> Self {
+        Self { position, normal: axis, is_cylinder: true }
+    }
 }
 
 /// An illuminance, lx, and its standard error.
@@ -45,11 +57,29 @@ impl Reading {
 pub(crate) struct Lit {
     pub(crate) spots: Vec<Spot>,
     pub(crate) readings: Vec<Reading>,
+    /// What each point stands for in the mean.
+    weights: Vec<f64>,
 }
 
 impl Lit {
     pub(crate) fn new((spots, readings): (&[Spot], &[Reading])) -> Self {
-        Self { spots: spots.to_vec(), readings: readings.to_vec() }
+        Self { spots: spots.to_vec(), readings: readings.to_vec(), weights: vec![1.0; readings.len()] }
+    }
+
+    /// Several areas as one: in the mean each counts by its size, m².
+    pub(crate) fn joined<'a>(parts: impl Iterator<Item = (&'a Self, f64)>) -> Self {
+        let mut whole = Self::new((&[], &[]));
+        for (part, size) in parts {
+            whole.spots.extend(&part.spots);
+            whole.readings.extend(&part.readings);
+            whole.weights.extend(part.readings.iter().map(|_| size / part.readings.len() as f64));
+        }
+        whole
+    }
+
+    /// The least over the mean and over the greatest; none without light.
+    pub(crate) fn uniformities(&self) -> [Option<[f64; 2]>; 2] {
+        self.ends().map_or([None; 2], |[least, most, mean]| [least.over(mean), least.over(most)])
     }
 
     /// The least, the greatest, and their mean; nothing of no points, and all unknown where a point is.
@@ -59,10 +89,11 @@ impl Lit {
         }
         let by = |a: &&Reading, b: &&Reading| a.lx.total_cmp(&b.lx);
         let (least, most) = (self.readings.iter().min_by(by)?, self.readings.iter().max_by(by)?);
-        let count = self.readings.len() as f64;
-        let mean = self.readings.iter().map(|reading| reading.lx).sum::<f64>() / count;
+        let whole: f64 = self.weights.iter().sum();
+        let weighed = || self.readings.iter().zip(&self.weights);
+        let mean = weighed().map(|(reading, weight)| weight * reading.lx).sum::<f64>() / whole;
         // Errors of points are independent.
-        let error = self.readings.iter().map(|reading| reading.error.powi(2)).sum::<f64>().sqrt() / count;
+        let error = weighed().map(|(reading, weight)| (weight * reading.error).powi(2)).sum::<f64>().sqrt() / whole;
         Some([*least, *most, Reading { lx: mean, error }])
     }
 

@@ -32,6 +32,7 @@ mod picture;
 mod pixels;
 mod ray_caster;
 mod render;
+mod road;
 mod sample;
 mod scene;
 mod settings;
@@ -91,6 +92,8 @@ mod _gonio {
     use crate::ray_caster::{RayCaster, RayHits};
     #[pymodule_export]
     use crate::render::{Progress, Render, Tile, merge};
+    #[pymodule_export]
+    use crate::road::road;
     #[pymodule_export]
     use crate::sample::{SampleReading, sample_bsdf};
     #[pymodule_export]

@@ -8,7 +8,7 @@ use crate::{
     illuminance::Measurand,
     line::Line,
     luminance::{AWAY, EYE, Seen},
-    required::{Wanted, verdicts},
+    required::{Wanted, classes, verdicts},
     results::{Field, Observed, Results},
     road::Road,
     surface::Surface,
@@ -47,9 +47,13 @@ impl Road {
             illuminance_y,
             required: Vec::new(),
             met: None,
+            class: None,
+            classes: Vec::new(),
             notes: Vec::new(),
         };
         results.required = verdicts(&self.required, &|key| results.wanted(key));
+        results.classes = classes(&self.classes, &|key| results.wanted(key));
+        results.class = results.classes.iter().find(|class| class.met).map(|class| class.name.clone());
         let mut asked = results.required.iter().chain(results.footpaths.iter().flat_map(|path| &path.required)).peekable();
         results.met = asked.peek().is_some().then(|| asked.all(|verdict| verdict.met));
         results.notes = self.notes(&results);

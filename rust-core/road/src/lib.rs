@@ -32,8 +32,8 @@ pub mod text;
 
 pub use error::RoadError;
 pub use optimise::Best;
-pub use required::{KEYS, Requirement};
-pub use results::{Edge, Energy, Field, Footing, Illuminances, Observed, Results, SurfaceFigures, Verdict};
+pub use required::{Class, KEYS, Requirement};
+pub use results::{Classed, Edge, Energy, Field, Footing, Illuminances, Observed, Results, SurfaceFigures, Verdict};
 pub use road::{Footpath, Period, Ranges, Reach, Road, Row, Side};
 pub use standard::Standard;
-pub use surface::{Surface, Table};
+pub use surface::{Material, Surface, Table};

@@ -1,6 +1,6 @@
-//! What a user asks of a road: numbers, not classes of a norm.
+//! What a user asks of a road: the user's own numbers, none of a norm.
 
-use crate::results::{Illuminances, Results, Verdict};
+use crate::results::{Classed, Illuminances, Results, Verdict};
 
 /// A value that a result has to reach, or must not exceed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -9,6 +9,15 @@ pub struct Requirement {
     pub key: &'static str,
     /// The value, in the result's unit.
     pub value: f64,
+}
+
+/// A class of road lighting as the user describes it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Class {
+    /// What it is called.
+    pub name: String,
+    /// What it requires of the carriageway.
+    pub required: Vec<Requirement>,
 }
 
 /// Keys of results that may be required.
@@ -58,6 +67,15 @@ impl Wanted for Results {
             _ => self.illuminances.wanted(key),
         }
     }
+}
+
+/// Which classes are met.
+pub(crate) fn classes(classes: &[Class], wanted: &dyn Fn(&str) -> Option<f64>) -> Vec<Classed> {
+    let classed = |class: &Class| {
+        let required = verdicts(&class.required, wanted);
+        Classed { name: class.name.clone(), met: required.iter().all(|verdict| verdict.met), required }
+    };
+    classes.iter().map(classed).collect()
 }
 
 /// Which requirements are met.

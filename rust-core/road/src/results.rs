@@ -48,8 +48,23 @@ pub struct Results {
     pub required: Vec<Verdict>,
     /// Whether everything that was required, of paths too, is met; none where nothing was.
     pub met: Option<bool>,
+    /// The first of the file's classes that is met.
+    pub class: Option<String>,
+    /// All classes of the file.
+    pub classes: Vec<Classed>,
     /// What a reader should know beside the numbers.
     pub notes: Vec<String>,
+}
+
+/// Whether the road meets a class.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Classed {
+    /// What it is called.
+    pub name: String,
+    /// Whether all that it requires is met.
+    pub met: bool,
+    /// What it requires.
+    pub required: Vec<Verdict>,
 }
 
 /// Illuminances of an area in lx.

@@ -1,6 +1,10 @@
 //! A road as its file describes it.
 
-use crate::{required::Requirement, standard::Standard, surface::Surface};
+use crate::{
+    required::{Class, Requirement},
+    standard::Standard,
+    surface::Surface,
+};
 use gonio_formats::photometry::Goniogram;
 use std::sync::Arc;
 
@@ -29,6 +33,8 @@ pub struct Road {
     pub footpaths: Vec<Footpath>,
     /// What the carriageway's results have to be.
     pub required: Vec<Requirement>,
+    /// Classes of which the first that is met is told.
+    pub classes: Vec<Class>,
     /// How long in a year the luminaires run at what level; none where energy does not matter.
     pub periods: Vec<Period>,
     /// What may be varied to meet what is required.

@@ -2,7 +2,7 @@
 
 use crate::{
     optimise::Best,
-    results::{Footing, Illuminances, Observed, Results, Verdict},
+    results::{Classed, Footing, Illuminances, Observed, Results, Verdict},
 };
 use gonio_formats::tame;
 
@@ -110,11 +110,21 @@ pub fn lines(results: &Results) -> Vec<String> {
     lines.iter().map(|line| tame(line)).collect()
 }
 
-/// What was required, with what became of it.
+/// The class that is met, and what the others miss.
+fn classes(results: &Results) -> Vec<String> {
+    let first = results.class.as_ref().map_or("class: none of the file's is met".to_owned(), |class| format!("class: {class}"));
+    let missed = |class: &Classed| -> Vec<String> {
+        class.required.iter().filter(|verdict| !verdict.met).map(|verdict| told(&format!("class {}", class.name), verdict)).collect()
+    };
+    let lines = std::iter::once(first).chain(results.classes.iter().flat_map(missed));
+    lines.filter(|_| !results.classes.is_empty()).collect()
+}
+
+/// What was required, with what became of it, and classes.
 pub fn requirements(results: &Results) -> Vec<String> {
     let own = results.required.iter().map(|verdict| told("road", verdict));
     let of_path = |path: &Footing| path.required.iter().map(|verdict| told(&path.name, verdict)).collect::<Vec<_>>();
-    own.chain(results.footpaths.iter().flat_map(of_path)).collect()
+    own.chain(results.footpaths.iter().flat_map(of_path)).chain(classes(results)).collect()
 }
 
 fn told(of: &str, verdict: &Verdict) -> String {

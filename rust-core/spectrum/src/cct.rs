@@ -107,9 +107,53 @@ pub(crate) fn cct(uv: [f64; 2]) -> Option<(f64, f64)> {
     (LOWEST_CCT / slack..=HIGHEST_CCT * slack).contains(&kelvin).then_some((kelvin, duv))
 }
 
+/// The correlated colour temperature in K and Duv of tristimulus values (1931); `None` of light that is not white.
+pub fn cct_of_xyz(xyz: [f64; 3]) -> Option<(f64, f64)> {
+    cct(observer::uv(xyz)).filter(|(_, duv)| duv.abs() <= LARGEST_DUV)
+}
+
+/// Weights of X, Y and Z whose sum is zero for light of a correlated colour temperature, above zero for cooler light and below for warmer: the isotherm
+/// crosses the blackbodies at a right angle in the 1960 diagram. Over X + 15 Y + 3 Z the sum is the logarithm of the temperatures' ratio, nearby.
+pub fn isotherm(kelvin: f64) -> [f64; 3] {
+    const STEP: f64 = 1e-3;
+    let log = kelvin.clamp(LOWEST_CCT, HIGHEST_CCT).ln();
+    let ([u, v], [cooler, warmer]) = (between(log), [between(log + STEP), between(log - STEP)]);
+    let along = [0, 1].map(|k| (cooler[k] - warmer[k]) / (2.0 * STEP));
+    let square = along[0] * along[0] + along[1] * along[1];
+    let own = u * along[0] + v * along[1];
+    // (4 X, 6 Y) over X + 15 Y + 3 Z is u, v.
+    [4.0 * along[0] - own, 6.0 * along[1] - 15.0 * own, -3.0 * own].map(|weight| weight / square)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn isotherms_part_cooler_light_from_warmer() {
+        let xyz = |[u, v]: [f64; 2]| {
+            // Y = 1: u = 4 X / d, v = 6 / d, d = X + 15 + 3 Z.
+            let d = 6.0 / v;
+            let x = u * d / 4.0;
+            [x, 1.0, (d - x - 15.0) / 3.0]
+        };
+        for kelvin in [1800.0_f64, 2700.0, 4000.0, 6500.0, 15_000.0] {
+            let weights = isotherm(kelvin);
+            let sum = |[x, y, z]: [f64; 3]| (weights[0] * x + weights[1] * y + weights[2] * z) / (x + 15.0 * y + 3.0 * z);
+            for ratio in [0.98_f64, 1.02] {
+                assert!((sum(xyz(blackbody((kelvin * ratio).ln()))) - ratio.ln()).abs() < 2e-3, "{kelvin} {ratio}");
+            }
+            // Off the blackbodies as well: a light on the isotherm has that temperature.
+            let (on, next) = (blackbody(kelvin.ln()), blackbody(kelvin.ln() + 1e-3));
+            let along = [next[0] - on[0], next[1] - on[1]];
+            let length = along[0].hypot(along[1]);
+            let off = xyz([on[0] - 0.01 * along[1] / length, on[1] + 0.01 * along[0] / length]);
+            assert!(sum(off).abs() < 1e-2, "{kelvin}: {}", sum(off));
+            let (found, duv) = cct_of_xyz(off).expect("white light");
+            assert!((found / kelvin - 1.0).abs() < 1e-3 && (duv.abs() - 0.01).abs() < 1e-6, "{kelvin}: {found} {duv}");
+        }
+        assert_eq!(cct_of_xyz([0.0, 1.0, 0.0]), None);
+    }
 
     #[test]
     fn blackbodies_between_those_of_the_table_are_blackbodies() {

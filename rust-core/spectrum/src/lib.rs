@@ -44,7 +44,7 @@ mod white;
 
 pub use alpha_opic::{AlphaOpic, OPSINS, melanopic_daylight};
 pub use bands::{Bands, bands_of};
-pub use cct::{HIGHEST_CCT, LARGEST_DUV, LOWEST_CCT, cct_of_colour};
+pub use cct::{HIGHEST_CCT, LARGEST_DUV, LOWEST_CCT, cct_of_colour, cct_of_xyz, isotherm};
 pub use colour_spectra::{ColourSpectra, colours_over_d65};
 pub use drawing::spectrum_drawing;
 pub use figures::{Figures, White, figures};

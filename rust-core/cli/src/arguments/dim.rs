@@ -13,6 +13,7 @@ pub(super) const DIM_EXAMPLES: &str = "Targets, NAME being a prim, the last part
   NAME.min>=200       no point gets less
   NAME.max<=1000      no point gets more
   NAME.uo>=0.6        the least point has 0.6 of the mean at least
+  NAME.cct=4000+-100  the light there has a colour temperature of 3900 to 4100 K; >= and <= do as well
 Glare, where the stage's own meters and grids ask for ugr, is checked once the levels are known: NAME.max<=19.
 
 Examples:

@@ -54,7 +54,7 @@ pub(super) use info::InfoOptions;
 pub(super) use integrator::IntegratorArgument;
 pub(super) use map::MapArguments;
 pub(super) use measure::{GridArguments, MeasureOptions, MeasuringArguments};
-pub(super) use norms::{EmergencyOptions, NormArguments, SportsOptions};
+pub(super) use norms::{EmergencyOptions, NormArguments, SportsOptions, ZonesOptions};
 pub(super) use output::OutputArguments;
 pub(super) use photometry::{PhotometryOptions, SymmetryName};
 pub(super) use picture::{CompareOptions, RelightOptions};
@@ -78,7 +78,7 @@ use dim::DIM_EXAMPLES;
 use goniometer::GONIOMETER_EXAMPLES;
 use map::MAP_EXAMPLES;
 use measure::MEASURE_EXAMPLES;
-use norms::{EMERGENCY_EXAMPLES, SPORTS_EXAMPLES};
+use norms::{EMERGENCY_EXAMPLES, SPORTS_EXAMPLES, ZONES_EXAMPLES};
 use report::REPORT_EXAMPLES;
 use road::ROAD_EXAMPLES;
 use spectrum::{SENSOR_EXAMPLES, SPECTRUM_EXAMPLES};
@@ -225,10 +225,16 @@ pub(super) enum Command {
     /// A TOML file says where people play, who films and who may be dazzled. 'gonio verdict' compares the figures with your own requirements.
     #[command(after_long_help = SPORTS_EXAMPLES)]
     Sports(Box<SportsOptions>),
+    /// Calculate zones of rooms as EN 12464-1 has them: task areas, their surround, the background, walls, the ceiling, and cylindrical illuminance.
+    ///
+    /// A TOML file says where rooms and tasks are, and which lights shine; daylight does not. Points stand as EN 12464-1 has them. 'gonio verdict' compares
+    /// the figures with your own requirements.
+    #[command(after_long_help = ZONES_EXAMPLES)]
+    Zones(Box<ZonesOptions>),
     /// Say whether what was measured meets what is required, line by line and by the standard errors: met, not met, or within the error.
     ///
     /// Requirements are a TOML file of your own numbers; figures come from 'gonio measure', 'gonio annual', 'gonio view-out', 'gonio road',
-    /// 'gonio emergency' and 'gonio sports' with --json. Writes the
+    /// 'gonio emergency', 'gonio sports' and 'gonio zones' with --json. Writes the
     /// planner's sheet as HTML or PDF. It is no certificate of conformity with a standard.
     #[command(after_long_help = VERDICT_EXAMPLES)]
     Verdict(VerdictOptions),

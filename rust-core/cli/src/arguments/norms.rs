@@ -1,4 +1,4 @@
-//! What `gonio emergency` and `gonio sports` take.
+//! What `gonio emergency`, `gonio sports` and `gonio zones` take.
 
 use super::number::count;
 use super::stage::StageArguments;
@@ -52,6 +52,33 @@ A plan:
   name = \"Keeper\"
   position = [0, 34, 1.5]";
 
+/// The end of `gonio zones --help`.
+pub(super) const ZONES_EXAMPLES: &str = "Examples:
+  gonio zones office.usda --plan rooms.toml
+  gonio zones office.usda --plan rooms.toml --json > rooms.json
+  gonio verdict required.toml rooms.json -o sheet.html
+
+A plan:
+  groups = [\"Ceiling\"]         # or lights = [\"/Office/Lamps\"]; all lights without both
+  maintenance_factor = 0.8
+  [[room]]
+  name = \"Office\"
+  floor = [[0, 0, 0], [6, 0, 0], [6, 4, 0], [0, 4, 0]]   # or surface = \"Office/Floor\"
+  height = 2.8                  # walls and ceiling; eye_height = 1.2 of cylindrical illuminance
+  [[task]]
+  name = \"Desk\"
+  outline = [[2, 1, 0.75], [3.6, 1, 0.75], [3.6, 1.8, 0.75], [2, 1.8, 0.75]]
+  surround = 0.5";
+
+#[derive(Args, Debug)]
+pub(crate) struct ZonesOptions {
+    /// The plan: rooms and task areas, in metres of the stage's world, and which lights shine; a TOML file.
+    #[arg(long, value_name = "FILE.toml")]
+    pub(crate) plan: PathBuf,
+    #[command(flatten)]
+    pub(crate) norm: NormArguments,
+}
+
 #[derive(Args, Debug)]
 pub(crate) struct EmergencyOptions {
     /// The plan: escape routes, open areas and places, in metres of the stage's world, and which lights shine; a TOML file.
@@ -70,7 +97,7 @@ pub(crate) struct SportsOptions {
     pub(crate) norm: NormArguments,
 }
 
-/// What both take beside their plans.
+/// What all take beside their plans.
 #[derive(Args, Debug)]
 pub(crate) struct NormArguments {
     #[command(flatten)]

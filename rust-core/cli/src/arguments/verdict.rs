@@ -32,7 +32,7 @@ pub(crate) struct VerdictOptions {
     /// What is required: a TOML file.
     #[arg(value_name = "REQUIREMENTS.toml")]
     pub(crate) requirements: PathBuf,
-    /// What was measured: JSON of 'gonio measure', 'gonio annual', 'gonio view-out', 'gonio road', 'gonio emergency' and 'gonio sports', each with --json.
+    /// What was measured: JSON of 'gonio measure', 'gonio annual', 'gonio view-out', 'gonio road', 'gonio emergency', 'gonio sports' and 'gonio zones', each with --json.
     #[arg(value_name = "MEASURED.json", required = true, num_args = 1..)]
     pub(crate) measured: Vec<PathBuf>,
     /// Write the sheet: a page that holds everything itself, or a PDF by Chromium or Chrome where the machine has one.

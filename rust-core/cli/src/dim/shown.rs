@@ -21,6 +21,9 @@ pub(super) fn lines(found: &Dimming) -> Vec<String> {
 
 fn target_line(target: &Reached) -> String {
     let Reached { text, reached, error, margin, verdict } = target;
+    if reached.is_nan() {
+        return format!("{text}: the light is not white, {}", verdict.words());
+    }
     // Shares have more places than lux.
     let places = if reached.abs() < 10.0 { 3 } else { 1 };
     let by = if *verdict == Verdict::NotMet { format!(" by {:.places$}", -margin) } else { String::new() };

@@ -1,9 +1,11 @@
 //! Commands whose plans are TOML files and whose figures are those of norms: what they have in common.
 
 mod emergency;
+mod floors;
 mod sports;
+mod zones;
 
-pub(super) use {emergency::emergency, sports::sports};
+pub(super) use {emergency::emergency, sports::sports, zones::zones};
 
 use crate::{
     arguments::NormArguments,
@@ -18,7 +20,7 @@ use gonio::{
     Diagnostic, Error, Result,
     compile::compile,
     measure::{MeterReading, StraightLight, straight_light},
-    scene::{Integrator, Light, Meter, Origin, Scene},
+    scene::{Integrator, Light, Measurand, Meter, Origin, Scene},
 };
 use gonio_formats::FormatError;
 use gonio_norms::{Reading, Spot};
@@ -64,7 +66,8 @@ fn measured(
     let meter = |spot: &Spot| {
         let [x, y, z] = spot.position;
         let origin = Origin::new(format!("{x:.3},{y:.3},{z:.3}"));
-        Meter { origin, position: spot.position, normal: spot.normal, ..Meter::default() }
+        let measurand = if spot.is_cylinder { Measurand::Cylindrical } else { Measurand::Illuminance };
+        Meter { origin, position: spot.position, normal: spot.normal, measurand, ..Meter::default() }
     };
     scene.meters = spots.iter().map(meter).collect();
     scene.grids.clear();

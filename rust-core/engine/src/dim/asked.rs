@@ -29,6 +29,11 @@ impl Asked {
         known.extend(scene.grids.iter().map(|grid| (&*grid.origin.name, grid.measurand)));
         for target in targets.map_err(|error| told("target", error))? {
             let found = target.find(&known, |(name, _)| name).map_err(|error| told("target", error))?;
+            if target.limit.is_of_colour() {
+                check_coloured(&target, found.1, scene)?;
+                asked.light.push(target);
+                continue;
+            }
             match found.1 {
                 Measurand::Ugr => asked.glare.push(target),
                 Measurand::DaylightFactor => {
@@ -36,14 +41,15 @@ impl Asked {
                     return Err(Error::setting("target", problem));
                 }
                 Measurand::Cct | Measurand::Duv | Measurand::Ra | Measurand::Rf | Measurand::Rg => {
-                    let problem = format!("'{}' measures a colour, which is no sum of what the groups bring", target.area);
+                    let problem = format!("'{}' measures a colour: name NAME.cct, or measure its illuminance", target.area);
                     return Err(Error::setting("target", problem));
                 }
                 _ => asked.light.push(target),
             }
         }
-        if asked.light.is_empty() {
-            return Err(Error::setting("target", "glare alone says nothing of the levels; name a target of light, as NAME.mean>=500"));
+        if asked.light.iter().all(|target| target.limit.is_of_colour()) {
+            let problem = "glare and colour alone say nothing of how much light there is; name a target of that, as NAME.mean>=500";
+            return Err(Error::setting("target", problem));
         }
         Ok(asked)
     }
@@ -53,10 +59,27 @@ impl Asked {
         self.light.iter().any(|target| target.names(name))
     }
 
+    /// Whether a target of the light's colour names what has this name.
+    pub(super) fn names_colour(&self, name: &str) -> bool {
+        self.light.iter().any(|target| target.limit.is_of_colour() && target.names(name))
+    }
+
     /// Whether a target of glare names what has this name.
     pub(super) fn names_glare(&self, name: &str) -> bool {
         self.glare.iter().any(|target| target.names(name))
     }
+}
+
+/// The colour of the light is known where a plane is measured.
+fn check_coloured(target: &Target, measurand: Measurand, scene: &Scene) -> Result<()> {
+    let wrong = |problem: String| Err(Error::setting("target", problem));
+    if !matches!(measurand, Measurand::Illuminance | Measurand::Cct) {
+        return wrong(format!("'{}' measures {}, expected illuminance or cct for NAME.cct", target.area, measurand.name()));
+    }
+    if scene.grids.iter().any(|grid| grid.eyes.is_some() && target.names(&grid.origin.name)) {
+        return wrong(format!("'{}' has eyes, expected a plane for NAME.cct", target.area));
+    }
+    Ok(())
 }
 
 /// What is sought by the groups' order.

@@ -4,16 +4,21 @@ use super::{asked::Asked, groups::LightGroup, told};
 use crate::{
     compile::{CompiledScene, compile},
     error::{Diagnostic, Error, Result},
-    measure::{Measurements, Reading, Watch, measure},
+    measure::{ColourReading, Measurements, Reading, Watch, measure},
     render::Progress,
-    scene::{Measurand, Origin, Scene},
+    scene::{Grid, Measurand, Meter, Origin, Scene},
 };
-use gonio_dimming::{Area, Estimate, Point, Problem, Reached};
+use gonio_dimming::{Area, Colour, Estimate, Light, Point, Problem, Reached};
 use gonio_simd::Execution;
-use std::time::Instant;
+use std::{sync::Arc, time::Instant};
 
-/// The readings of what is measured, by its name.
-type Named = (String, Vec<Reading>);
+/// The readings of what is measured, by its name, and the colours of the light where they are wanted.
+#[derive(Clone, Debug)]
+struct Named {
+    name: String,
+    readings: Vec<Reading>,
+    colours: Vec<Arc<ColourReading>>,
+}
 
 /// Measurements one after the other.
 pub(super) struct Run<'a, 'b> {
@@ -50,10 +55,33 @@ impl<'a, 'b> Run<'a, 'b> {
 }
 
 fn by_name(found: &Measurements) -> Vec<Named> {
-    let meters = found.meters.iter().map(|meter| (meter.meter.origin.name.to_string(), vec![meter.reading]));
+    let meters = found.meters.iter().map(|meter| (&meter.meter.origin.name, vec![meter.reading], meter.colour.iter().cloned().collect()));
     // Eyes count one by one: so the mean is that of the points' means, and the least that of the least eye.
-    let grids = found.grids.iter().map(|grid| (grid.origin.name.to_string(), grid.readings()));
-    meters.chain(grids).collect()
+    let grids = found.grids.iter().map(|grid| (&grid.origin.name, grid.readings(), grid.colours.clone()));
+    let mut all: Vec<Named> = Vec::new();
+    for (name, readings, colours) in meters.chain(grids) {
+        let known = all.iter_mut().find(|known| known.name == **name && known.colours.is_empty());
+        match known.filter(|_| !colours.is_empty()) {
+            Some(known) => known.colours = colours,
+            None if colours.is_empty() => all.push(Named { name: name.to_string(), readings, colours }),
+            // A temperature is no amount.
+            None => {
+                let readings = colours.iter().map(|colour: &Arc<ColourReading>| colour.illuminance).collect();
+                all.push(Named { name: name.to_string(), readings, colours });
+            }
+        }
+    }
+    all
+}
+
+/// Measures the colour of the light too where targets want it.
+fn with_colours(scene: &mut Scene, asked: &Asked) {
+    let meters = scene.meters.iter().filter(|meter| meter.measurand != Measurand::Cct && asked.names_colour(&meter.origin.name));
+    let meters: Vec<Meter> = meters.map(|meter| Meter { measurand: Measurand::Cct, ..meter.clone() }).collect();
+    let grids = scene.grids.iter().filter(|grid| grid.measurand != Measurand::Cct && asked.names_colour(&grid.origin.name));
+    let grids: Vec<Grid> = grids.map(|grid| Grid { measurand: Measurand::Cct, ..grid.clone() }).collect();
+    scene.meters.extend(meters);
+    scene.grids.extend(grids);
 }
 
 /// What the points that targets of light name get of each group and of all other light. Runs have seeds of their own, so that their errors are
@@ -62,6 +90,7 @@ pub(super) fn measured(run: &mut Run<'_, '_>, scene: &Scene, groups: &[LightGrou
     let mut only = scene.clone();
     only.meters.retain(|meter| meter.measurand != Measurand::Ugr && asked.names_light(&meter.origin.name));
     only.grids.retain(|grid| grid.measurand != Measurand::Ugr && asked.names_light(&grid.origin.name));
+    with_colours(&mut only, asked);
     let compiled = compile(&only, run.watch.previous, run.watch.cancel)?;
     run.tell(&compiled.diagnostics);
     let strengths: Vec<f32> = only.lights.iter().map(|light| light.dimming).collect();
@@ -81,18 +110,27 @@ pub(super) fn measured(run: &mut Run<'_, '_>, scene: &Scene, groups: &[LightGrou
         of_groups.push(readings);
         group.lights.iter().for_each(|light| only.lights[*light].dimming = 0.0);
     }
-    fixed.into_iter().enumerate().map(|(number, (name, fixed))| area(run, (name, &fixed), number, &of_groups)).collect()
+    fixed.into_iter().enumerate().map(|(number, fixed)| area(run, fixed, number, &of_groups)).collect()
 }
 
 /// An area's points, those left out that have no figure in one of the runs.
-fn area(run: &mut Run<'_, '_>, (name, fixed): (String, &[Reading]), number: usize, of_groups: &[Vec<Named>]) -> Result<Area> {
-    let reading = |group: &Vec<Named>, point: usize| group.get(number).and_then(|(_, readings)| readings.get(point)).copied();
+fn area(run: &mut Run<'_, '_>, fixed: Named, number: usize, of_groups: &[Vec<Named>]) -> Result<Area> {
+    let reading = |group: &Vec<Named>, point: usize| group.get(number).and_then(|named| named.readings.get(point)).copied();
     let point = |(point, fixed): (usize, &Reading)| {
         let of_groups = of_groups.iter().map(|group| reading(group, point)).collect::<Option<Vec<_>>>()?;
         let is_known = fixed.is_known() && of_groups.iter().all(Reading::is_known);
         is_known.then(|| Point { fixed: estimate(fixed), of_groups: of_groups.iter().map(estimate).collect() })
     };
-    let points: Vec<Point> = fixed.iter().enumerate().filter_map(point).collect();
+    let light = |named: &Named, point: usize| named.colours.get(point).map(|colour| light(colour));
+    let colour = |point: usize| {
+        let of_groups = of_groups.iter().map(|group| light(group.get(number)?, point)).collect::<Option<Vec<_>>>()?;
+        let colour = Colour { fixed: light(&fixed, point)?, of_groups };
+        let is_known = colour.of_groups.iter().chain([&colour.fixed]).all(|light| !light.lux.value.is_nan());
+        is_known.then_some(colour)
+    };
+    let colours = (0..fixed.readings.len()).filter_map(colour).collect();
+    let points: Vec<Point> = fixed.readings.iter().enumerate().filter_map(point).collect();
+    let Named { name, readings: fixed, .. } = fixed;
     if points.is_empty() {
         return Err(Error::setting("target", format!("{name}: none of its points could be measured")));
     }
@@ -101,11 +139,20 @@ fn area(run: &mut Run<'_, '_>, (name, fixed): (String, &[Reading]), number: usiz
         run.told
             .push(Diagnostic::warning(&Origin::new(&*name), format!("{lost} of {count} points could not be measured and do not count")));
     }
-    Ok(Area { name, points })
+    Ok(Area { name, points, colours })
 }
 
 fn estimate(reading: &Reading) -> Estimate {
     Estimate::new(reading.value, reading.standard_error)
+}
+
+/// Light with its colour; of none where nothing arrives.
+fn light(colour: &ColourReading) -> Light {
+    let lux = estimate(&colour.illuminance);
+    let over_y = |part: fn([f64; 2]) -> f64| colour.figure(|figures| Some(part(figures.xy) / figures.xy[1]));
+    let [x, z] =
+        [over_y(|[x, _]| x), over_y(|[x, y]| 1.0 - x - y)].map(|reading| reading.as_ref().map_or_else(Estimate::default, estimate));
+    Light { lux, x, z }
 }
 
 /// What the targets of glare come to at levels that are found.
@@ -126,8 +173,9 @@ pub(super) fn glare(
     }
     let (found, diagnostics) = run.readings(&scene, None)?;
     run.tell(&diagnostics);
-    let area = |(name, readings): Named| Area {
+    let area = |Named { name, readings, .. }: Named| Area {
         name,
+        colours: Vec::new(),
         points: readings.iter().map(|reading| Point { fixed: estimate(reading), of_groups: Vec::new() }).collect(),
     };
     let areas = found.into_iter().map(area).collect();

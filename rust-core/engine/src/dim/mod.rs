@@ -104,7 +104,13 @@ impl Dimming {
             })
         };
         let point = |point: &gonio_dimming::Point| json!({ "fixed": point.fixed, "groups": point.of_groups });
-        let area = |area: &Area| json!({ "name": area.name, "points": area.points.iter().map(point).collect::<Vec<_>>() });
+        let area = |area: &Area| {
+            let mut found = json!({ "name": area.name, "points": area.points.iter().map(point).collect::<Vec<_>>() });
+            if !area.colours.is_empty() {
+                found["colours"] = json!(area.colours);
+            }
+            found
+        };
         json!({
             "groups": self.groups.iter().zip(&self.solution.levels).map(group).collect::<Vec<_>>(),
             "targets": self.solution.targets,

@@ -1,7 +1,11 @@
 //! Where light is measured.
 
 use super::plan::{Area, Plan, Route};
-use crate::{Spot, plan::distance};
+use crate::{
+    Spot,
+    outline::{edge_distance, is_inside},
+    plan::distance,
+};
 
 /// Parts of the central band's width across which points lie, from its middle.
 const ACROSS: [f64; 5] = [0.0, -0.25, -0.125, 0.125, 0.25];
@@ -10,13 +14,10 @@ impl Plan {
     /// All points: those of routes (each the centre line, then the lines beside it), of areas, and places, in the plan's order. `up` is a unit vector
     /// along an axis.
     pub fn spots(&self, up: [f64; 3]) -> Vec<Spot> {
-        let raised = |[x, y, z]: [f64; 3]| Spot {
-            position: [x + up[0] * self.height, y + up[1] * self.height, z + up[2] * self.height],
-            normal: up,
-        };
+        let raised = |[x, y, z]: [f64; 3]| Spot::plane([x + up[0] * self.height, y + up[1] * self.height, z + up[2] * self.height], up);
         let routes = self.routes.iter().flat_map(|route| route.points(up));
         let areas = self.areas.iter().flat_map(|area| area.points(up));
-        let places = self.places.iter().map(|place| Spot { position: place.position, normal: place.facing });
+        let places = self.places.iter().map(|place| Spot::plane(place.position, place.facing));
         routes.chain(areas).map(raised).chain(places).collect()
     }
 }
@@ -87,30 +88,4 @@ impl Area {
         let steps = ((high - low) / self.spacing).ceil().max(1.0);
         (0..=steps as usize).map(|step| low + (high - low) * step as f64 / steps).collect()
     }
-}
-
-/// Whether a point lies within an outline, by the even-odd rule.
-fn is_inside(outline: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
-    let mut inside = false;
-    for (a, b) in edges(outline) {
-        if (a[1] > y) != (b[1] > y) && x < a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]) {
-            inside = !inside;
-        }
-    }
-    inside
-}
-
-/// The distance to the nearest edge.
-fn edge_distance(outline: &[[f64; 2]], [x, y]: [f64; 2]) -> f64 {
-    let to_edge = |(a, b): ([f64; 2], [f64; 2])| {
-        let way = [b[0] - a[0], b[1] - a[1]];
-        let length = way[0] * way[0] + way[1] * way[1];
-        let t = if length > 0.0 { (((x - a[0]) * way[0] + (y - a[1]) * way[1]) / length).clamp(0.0, 1.0) } else { 0.0 };
-        (x - a[0] - t * way[0]).hypot(y - a[1] - t * way[1])
-    };
-    edges(outline).map(to_edge).fold(f64::MAX, f64::min)
-}
-
-fn edges(outline: &[[f64; 2]]) -> impl Iterator<Item = ([f64; 2], [f64; 2])> {
-    outline.iter().zip(outline.iter().cycle().skip(1)).map(|(a, b)| (*a, *b))
 }

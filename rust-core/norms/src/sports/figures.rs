@@ -2,6 +2,7 @@
 
 use super::{
     glare::{Rating, Source, worst},
+    gradient::Gradient,
     plan::{EYES, Plan},
 };
 use crate::lit::{Lit, Reading, Spot};
@@ -12,6 +13,8 @@ use serde_json::{Value, json};
 pub(crate) struct OfField {
     pub(crate) name: String,
     pub(crate) counts: [u32; 2],
+    /// Metres from point to point.
+    steps: [f64; 2],
     pub(crate) ground: Lit,
     /// By camera.
     pub(crate) filmed: Vec<(String, Lit)>,
@@ -29,11 +32,13 @@ pub struct Figures {
     /// What the figures leave out.
     pub(crate) notes: Vec<String>,
     pub(crate) reflectance: f64,
+    pub(crate) gradient_over: f64,
 }
 
-/// The least over the greatest and over the mean, U1 and U2 of EN 12193; none without light.
+/// U1 and U2 of EN 12193: the least over the greatest and over the mean; none without light.
 pub(crate) fn uniformities(lit: &Lit) -> [Option<[f64; 2]>; 2] {
-    lit.ends().map_or([None; 2], |[least, most, mean]| [least.over(most), least.over(mean)])
+    let [to_mean, to_greatest] = lit.uniformities();
+    [to_greatest, to_mean]
 }
 
 impl Figures {
@@ -54,7 +59,9 @@ impl Figures {
             let ground = take(count);
             let filmed =
                 plan.cameras.iter().filter(|camera| camera.films(field)).map(|camera| (camera.name.clone(), take(count))).collect();
-            fields.push(OfField { name: field.name.clone(), counts, ground, filmed, glare: Vec::new() });
+            let [along, across] = field.sides();
+            let steps = [along / f64::from(counts[0]), across / f64::from(counts[1])];
+            fields.push(OfField { name: field.name.clone(), counts, steps, ground, filmed, glare: Vec::new() });
         }
         let looks = plan.looks(up);
         let rate = |field: &OfField, sources: &[Source]| {
@@ -72,7 +79,8 @@ impl Figures {
             let rated: Vec<_> = points.into_iter().zip(&mut eyes).map(|(point, sources)| (point, rate(found, sources))).collect();
             found.glare = rated;
         }
-        Self { fields, observers, factor: plan.maintenance_factor, notes: Vec::new(), reflectance: plan.reflectance }
+        let (factor, gradient_over) = (plan.maintenance_factor, plan.gradient_over);
+        Self { fields, observers, factor, notes: Vec::new(), reflectance: plan.reflectance, gradient_over }
     }
 
     /// Whether a luminaire stood nearer to a line of sight than CIE 112's formula holds.
@@ -97,20 +105,21 @@ impl Figures {
 
     /// For machines; `docs/sports.md` lists the keys.
     pub fn json(&self) -> Value {
-        let lit = |lit: &Lit| {
+        let lit = |field: &OfField, lit: &Lit| {
             let [u1, u2] = uniformities(lit);
-            lit.json(&[("u1", u1), ("u2", u2)])
+            let Gradient { ratio, percent } = field.gradient(lit, self.gradient_over);
+            lit.json(&[("u1", u1), ("u2", u2), ("gradient_ratio", ratio), ("gradient_percent", percent)])
         };
         let field = |field: &OfField| {
             let camera = |(name, of): &(String, Lit)| {
-                let mut found = lit(of);
+                let mut found = lit(field, of);
                 found.insert("name".into(), json!(name));
                 Value::Object(found)
             };
             let mut found = json!({
                 "name": field.name,
                 "points": field.counts,
-                "horizontal": lit(&field.ground),
+                "horizontal": lit(field, &field.ground),
                 "cameras": field.filmed.iter().map(camera).collect::<Vec<_>>(),
             });
             if let Some((place, rating)) = field.worst() {
@@ -123,6 +132,7 @@ impl Figures {
         json!({
             "maintenance_factor": self.factor,
             "reflectance": self.reflectance,
+            "gradient_over_m": self.gradient_over,
             "notes": self.notes,
             "fields": self.fields.iter().map(field).collect::<Vec<_>>(),
             "observers": self.observers.iter().map(|(name, rating)| of_rating(rating, json!({ "name": name }))).collect::<Vec<_>>(),
@@ -131,6 +141,11 @@ impl Figures {
 }
 
 impl OfField {
+    /// How fast the light of its points changes.
+    pub(crate) fn gradient(&self, lit: &Lit, over: f64) -> Gradient {
+        Gradient::new(lit, self.counts, self.steps, over)
+    }
+
     /// Where glare is worst.
     pub(crate) fn worst(&self) -> Option<&([f64; 3], Rating)> {
         self.glare.iter().max_by(|a, b| a.1.order().total_cmp(&b.1.order()))

@@ -2,6 +2,7 @@
 
 mod figures;
 mod glare;
+mod gradient;
 mod plan;
 mod spots;
 mod text;

@@ -20,6 +20,9 @@ pub struct Plan {
     /// What the ground sends back of its light, as the glare's background has it: 0.15 to 0.25 for grass (CIE 112).
     #[serde(default = "reflectance")]
     pub reflectance: f64,
+    /// Metres for which the steepest change of illuminance is told.
+    #[serde(default = "gradient_over")]
+    pub gradient_over: f64,
     /// Degrees between directions in which observers look, all around.
     #[serde(default = "step")]
     pub step_deg: f64,
@@ -97,6 +100,9 @@ pub(crate) const EYES: f64 = 1.5;
 fn eyes() -> f64 {
     EYES
 }
+fn gradient_over() -> f64 {
+    5.0
+}
 fn reflectance() -> f64 {
     0.25
 }
@@ -121,6 +127,7 @@ impl Plan {
     fn check(&self) -> Result<(), String> {
         within("maintenance_factor", self.maintenance_factor, [0.0, 1.0])?;
         within("reflectance", self.reflectance, [0.01, 1.0])?;
+        within("gradient_over", self.gradient_over, [0.01, 1000.0])?;
         within("step_deg", self.step_deg, [1.0, 360.0])?;
         within("tilt_deg", self.tilt_deg, [-90.0, 90.0])?;
         if self.fields.is_empty() {

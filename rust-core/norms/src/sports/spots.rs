@@ -53,10 +53,10 @@ impl Plan {
     /// All points, in the order of fields: those on its ground, then those of each camera that films it. `up` is a unit vector along an axis.
     pub fn spots(&self, up: [f64; 3]) -> Vec<Spot> {
         let of_field = |field: &Field| {
-            let ground = field.raster(field.height, up).into_iter().map(|position| Spot { position, normal: up });
+            let ground = field.raster(field.height, up).into_iter().map(|position| Spot::plane(position, up));
             let filmed = self.cameras.iter().filter(|camera| camera.films(field)).flat_map(|camera| {
                 let points = field.raster(camera.height, up);
-                points.into_iter().map(|position| Spot { position, normal: camera.normal(position, up) }).collect::<Vec<_>>()
+                points.into_iter().map(|position| Spot::plane(position, camera.normal(position, up))).collect::<Vec<_>>()
             });
             ground.chain(filmed).collect::<Vec<_>>()
         };

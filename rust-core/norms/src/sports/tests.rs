@@ -98,3 +98,26 @@ fn what_is_no_plan_is_told() {
         assert!(error.problem.contains(message), "{text}: {}", error.problem);
     }
 }
+
+#[test]
+fn the_steepest_change_between_neighbours() {
+    // Points 4 m apart along and 5 m across; the greatest ratio is across, the greatest change in 5 m along.
+    let text = "[[field]]\nname = 'f'\ncorner = [0, 0, 0]\nalong = [8, 0, 0]\nacross = [0, 10, 0]\npoints = [2, 2]\n";
+    let found = plan(text);
+    let lx = [100.0, 80.0, 80.0, 70.0];
+    let readings: Vec<Reading> = lx.iter().map(|lx| Reading { lx: *lx, error: 0.01 * lx }).collect();
+    let json = Figures::new(&found, UP, &readings, &[]).json();
+    let flat = &json["fields"][0]["horizontal"];
+    let number = |key: &str| flat[key].as_f64().expect("a number");
+    assert!((number("gradient_ratio") - 1.25).abs() < 1e-12);
+    assert!((number("gradient_ratio_error") - 1.25 * 0.01 * 2.0_f64.sqrt()).abs() < 1e-12);
+    // 20 % in 4 m are 25 % in 5 m.
+    assert!((number("gradient_percent") - 25.0).abs() < 1e-12);
+    assert!((number("gradient_percent_error") - 100.0 * 0.8 * 0.01 * 2.0_f64.sqrt() * 1.25).abs() < 1e-12);
+    let wide = plan(&format!("gradient_over = 4\n{text}"));
+    assert_eq!(Figures::new(&wide, UP, &readings, &[]).json()["fields"][0]["horizontal"]["gradient_percent"], 100.0 * (1.0 - 0.8));
+    let one = plan(&text.replace("[2, 2]", "[1, 1]"));
+    assert!(Figures::new(&one, UP, &readings[..1], &[]).json()["fields"][0]["horizontal"]["gradient_ratio"].is_null());
+    let dark = Figures::new(&found, UP, &[Reading::default(); 4], &[]).json();
+    assert!(dark["fields"][0]["horizontal"]["gradient_percent"].is_null());
+}

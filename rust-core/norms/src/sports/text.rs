@@ -1,8 +1,9 @@
 //! The figures as text.
 
 use super::{
-    figures::{Figures, uniformities},
+    figures::{Figures, OfField, uniformities},
     glare::Rating,
+    gradient::Gradient,
 };
 use crate::lit::Lit;
 
@@ -12,9 +13,10 @@ pub fn lines(found: &Figures) -> Vec<String> {
     for field in &found.fields {
         let [columns, rows] = field.counts;
         lines.push(format!("field {}, {columns} by {rows} points", field.name));
-        lines.extend(of_lit("horizontal", &field.ground));
+        let over = found.gradient_over;
+        lines.extend(of_lit("horizontal", field, &field.ground, over));
         for (name, lit) in &field.filmed {
-            lines.extend(of_lit(&format!("towards camera {name}"), lit));
+            lines.extend(of_lit(&format!("towards camera {name}"), field, lit, over));
             lines.extend(to_vertical(&field.ground, lit));
         }
         if let Some(([x, y, z], rating)) = field.worst() {
@@ -25,13 +27,16 @@ pub fn lines(found: &Figures) -> Vec<String> {
     lines
 }
 
-fn of_lit(name: &str, lit: &Lit) -> Vec<String> {
+fn of_lit(name: &str, field: &OfField, lit: &Lit, over: f64) -> Vec<String> {
     let Some([least, most, mean]) = lit.ends() else { return Vec::new() };
     let told = |ratio: Option<[f64; 2]>| ratio.map_or("unknown".to_owned(), |[ratio, error]| format!("{ratio:.3} ± {error:.3}"));
     let [u1, u2] = uniformities(lit);
+    let Gradient { ratio, percent } = field.gradient(lit, over);
+    let percent = percent.map_or("unknown".to_owned(), |[percent, error]| format!("{percent:.1} ± {error:.1} %"));
     vec![
         format!("  {name}: mean {}, least {}, greatest {}", mean.told(), least.told(), most.told()),
         format!("    U1, least to greatest: {}; U2, least to mean: {}", told(u1), told(u2)),
+        format!("    steepest between neighbours: {} to 1, a change of {percent} in {over} m", told(ratio)),
     ]
 }
 

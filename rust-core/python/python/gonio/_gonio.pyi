@@ -47,6 +47,7 @@ __all__ = [
     "glare",
     "measure",
     "merge",
+    "road",
     "MeasuredBsdf",
     "Pass",
     "Progress",
@@ -248,6 +249,7 @@ def dim(
     max_bounces: int | None = None,
     cancelled: Callable[[], bool] | None = None,
 ) -> dict[str, Any]: ...
+def road(path: str | PathLike[str], *, cancelled: Callable[[], bool] | None = None) -> dict[str, Any]: ...
 def measure(
     scene: Scene,
     *,

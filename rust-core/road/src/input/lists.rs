@@ -1,4 +1,4 @@
-//! `[[footpath]]`, `[required]`, `[[period]]` and `[optimise]`.
+//! `[[footpath]]`, `[required]`, `[[class]]`, `[[period]]` and `[optimise]`.
 
 use super::{
     keys::{Bounds, File, Keys, WIDE},
@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     error::Result,
-    required::{KEYS, PATH_KEYS, Requirement},
+    required::{Class, KEYS, PATH_KEYS, Requirement},
     road::{Footpath, Period, Ranges},
 };
 
@@ -50,11 +50,36 @@ pub(super) fn required(parts: &Keys<'_>, file: &File<'_>) -> Result<Vec<Requirem
     requirements(parts, file, "[required]", &KEYS)
 }
 
+/// Classes, the most demanding first as the user has them.
+pub(super) fn classes(parts: &Keys<'_>, file: &File<'_>) -> Result<Vec<Class>> {
+    let known = [&["name"], &KEYS[..]].concat();
+    let class = |(index, (table, start))| {
+        let title = format!("[[class]] {}", index + 1);
+        let keys = Keys::new(&title, file, table, start);
+        keys.check(&known)?;
+        let name = keys.needed_text("name", "what the class is called")?.to_owned();
+        let required = values(&keys, &KEYS)?;
+        if required.is_empty() {
+            return Err(keys.problem_of("name", &format!("is '{name}', which requires nothing, expected values as under [required]")));
+        }
+        Ok(Class { name, required })
+    };
+    let tables = parts.tables("class")?;
+    if tables.len() > MOST {
+        return Err(parts.problem_of("class", &format!("stands {} times, expected at most {MOST}", tables.len())));
+    }
+    tables.into_iter().enumerate().map(class).collect()
+}
+
 /// The table `required` of a table, in the order of the known keys.
 fn requirements(parts: &Keys<'_>, file: &File<'_>, title: &str, known: &[&'static str]) -> Result<Vec<Requirement>> {
     let Some((table, start)) = parts.table("required")? else { return Ok(Vec::new()) };
     let keys = Keys::new(title, file, table, start);
     keys.check(known)?;
+    values(&keys, known)
+}
+
+fn values(keys: &Keys<'_>, known: &[&'static str]) -> Result<Vec<Requirement>> {
     let found = known.iter().map(|key| Ok(keys.number(key, VALUES)?.map(|value| Requirement { key, value })));
     found.filter_map(Result::transpose).collect()
 }

@@ -9,7 +9,7 @@ use crate::{
     error::{Result, RoadError},
     road::{Reach, Road},
     standard::Standard,
-    surface::{Kind, Surface, Table},
+    surface::{Kind, Material, Surface, Table},
 };
 use gonio_formats::FormatError;
 use std::path::Path;
@@ -24,7 +24,7 @@ const AGES: Bounds = Bounds::from(15.0, 100.0, " years");
 /// Shares.
 const SHARES: Bounds = Bounds::above(0.0, 1.0, "");
 
-const PARTS: [&str; 6] = ["road", "row", "footpath", "required", "period", "optimise"];
+const PARTS: [&str; 7] = ["road", "row", "footpath", "required", "class", "period", "optimise"];
 const KEYS: [&str; 11] = [
     "carriageway_width",
     "lanes",
@@ -62,7 +62,7 @@ pub(super) fn road(bytes: &[u8], path: &Path) -> Result<Road> {
         carriageway_width,
         lanes,
         surface: surface(&own)?,
-        wet: own.text("wet_surface")?.map(|name| table(&own, "wet_surface", name)).transpose()?,
+        wet: own.text("wet_surface")?.map(|name| of_file(&own, "wet_surface", name)).transpose()?,
         standard: own.word("standard", &STANDARDS)?.unwrap_or_default(),
         observer_age: own.number("observer_age", AGES)?.unwrap_or(23.0),
         edge_strip: own.number("edge_strip", strip)?.unwrap_or(carriageway_width / f64::from(lanes)),
@@ -70,6 +70,7 @@ pub(super) fn road(bytes: &[u8], path: &Path) -> Result<Road> {
         rows: rows::rows(&parts, &file)?,
         footpaths: lists::footpaths(&parts, &file)?,
         required: lists::required(&parts, &file)?,
+        classes: lists::classes(&parts, &file)?,
         periods: lists::periods(&parts, &file)?,
         ranges: lists::ranges(&parts, &file)?,
     };
@@ -89,28 +90,33 @@ fn reach(own: &Keys<'_>) -> Result<Reach> {
 
 /// The dry surface.
 fn surface(own: &Keys<'_>) -> Result<Surface> {
-    let name = own.needed_text("surface", "\"lambert\" or the name of an r-table's file")?;
+    let name = own.needed_text("surface", "\"lambert\" or the name of a file with an r-table or a measured material")?;
     if name == "lambert" {
         if own.get("q0").is_some() {
             return Err(own.problem_of("q0", "is for r-tables, expected reflectance = π · q0 beside surface = \"lambert\""));
         }
         return Ok(Surface::lambert(own.needed("reflectance", SHARES)?));
     }
-    let surface = table(own, "surface", name)?;
+    let surface = of_file(own, "surface", name)?;
     if own.get("reflectance").is_some() {
-        return Err(own.problem_of("reflectance", "is for surface = \"lambert\", expected q0 or nothing beside an r-table"));
+        return Err(own.problem_of("reflectance", "is for surface = \"lambert\", expected q0 or nothing beside a file"));
     }
     let Some(q0) = own.number("q0", SHARES)? else { return Ok(surface) };
     match surface.kind {
         Kind::Table(table) if surface.figures.q0 > 0.0 => Ok(Surface::table(name, table.times(q0 / surface.figures.q0))),
-        _ => Err(own.problem_of("q0", "cannot be given to a table without light")),
+        Kind::Table(_) => Err(own.problem_of("q0", "cannot be given to a table without light")),
+        _ => Err(own.problem_of("q0", "is for r-tables; measured materials keep their own")),
     }
 }
 
-/// An r-table's file.
-fn table(own: &Keys<'_>, key: &str, name: &str) -> Result<Surface> {
-    let expected = "expected \"lambert\" or an r-table's file beside it (norms' own tables are no part of gonio)";
+/// The file of an r-table or of a measured material.
+fn of_file(own: &Keys<'_>, key: &str, name: &str) -> Result<Surface> {
+    let expected =
+        "expected \"lambert\", or the file of an r-table or a measured material beside it (norms' own tables are no part of gonio)";
     let (path, bytes) = named(own, key, name, expected)?;
+    if let Some(material) = Material::read(&bytes, name) {
+        return material.map(|material| Surface::material(name, material)).map_err(|error| RoadError::content(&path, error));
+    }
     let found = Table::read(&bytes).map_err(|error| RoadError::content(&path, error))?;
     Ok(Surface::table(name, found))
 }

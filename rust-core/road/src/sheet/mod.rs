@@ -1,7 +1,10 @@
-//! A road's results as drawings in SVG: the plan, and lines of equal illuminance and luminance.
+//! A road's results as drawings in SVG: the plan, lines of equal illuminance and luminance, and what a driver sees.
 
 mod frame;
 mod isolines;
+mod view;
+
+pub use view::view;
 
 use crate::{
     contours::Sampled,

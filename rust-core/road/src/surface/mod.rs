@@ -1,9 +1,11 @@
 //! How the road's surface sends light to a driver's eye.
 
 mod figures;
+mod material;
 mod read;
 mod table;
 
+pub use material::Material;
 pub use table::Table;
 
 use crate::{results::SurfaceFigures, standard::Standard};
@@ -12,7 +14,7 @@ use std::f64::consts::PI;
 /// A surface seen at 1° by a driver.
 #[derive(Clone, Debug)]
 pub struct Surface {
-    /// What it is called: `lambert`, or the table's file.
+    /// What it is called: `lambert`, or its file.
     pub name: String,
     /// Its reduced luminance coefficient.
     pub kind: Kind,
@@ -30,6 +32,8 @@ pub enum Kind {
     },
     /// A table by the directions of light.
     Table(Table),
+    /// A measured material.
+    Material(Material),
 }
 
 impl Surface {
@@ -41,6 +45,11 @@ impl Surface {
     /// A surface with a table.
     pub fn table(name: &str, table: Table) -> Self {
         Self::new(name, Kind::Table(table))
+    }
+
+    /// A measured surface.
+    pub fn material(name: &str, material: Material) -> Self {
+        Self::new(name, Kind::Material(material))
     }
 
     fn new(name: &str, kind: Kind) -> Self {
@@ -56,7 +65,7 @@ impl Surface {
     /// The largest tan γ for which it is known.
     pub fn farthest(&self) -> f64 {
         match &self.kind {
-            Kind::Lambert { .. } => f64::INFINITY,
+            Kind::Lambert { .. } | Kind::Material(_) => f64::INFINITY,
             Kind::Table(table) => table.farthest(),
         }
     }
@@ -67,6 +76,7 @@ impl Kind {
         match self {
             Self::Lambert { reflectance } => reflectance / PI * (1.0 + tangent * tangent).powf(-1.5),
             Self::Table(table) => table.reduced(beta, tangent, standard),
+            Self::Material(material) => material.reduced(beta, tangent),
         }
     }
 }

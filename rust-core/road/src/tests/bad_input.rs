@@ -26,6 +26,10 @@ l_av = 0.5
 [[period]]
 hours = 4000
 
+[[class]]
+name = "A"
+ul = 0.6
+
 [optimise]
 spacing = [20, 40]
 "#;
@@ -47,8 +51,11 @@ fn messages_tell_the_line() {
         ("l_av = 0.5", "lav = 0.5", "road.toml:19: [required]: the key 'lav' is not known; did you mean 'l_av'?"),
         ("e_av = 5", "l_av = 5", "road.toml:16: [[footpath]] 1: required: the key 'l_av' is not known"),
         ("hours = 4000", "hours = 9000", "road.toml:22: [[period]] 1: hours is 9000"),
-        ("[20, 40]", "[40, 20]", "road.toml:25: [optimise]: spacing goes from 40 to 20"),
-        ("[20, 40]", "[20]", "road.toml:25: [optimise]: spacing is not a list of 2 numbers"),
+        ("[20, 40]", "[40, 20]", "road.toml:29: [optimise]: spacing goes from 40 to 20"),
+        ("[20, 40]", "[20]", "road.toml:29: [optimise]: spacing is not a list of 2 numbers"),
+        ("ul = 0.6", "", "road.toml:25: [[class]] 1: name is 'A', which requires nothing"),
+        ("name = \"A\"", "", "road.toml:24: [[class]] 1: name is missing"),
+        ("ul = 0.6", "ull = 0.6", "road.toml:26: [[class]] 1: the key 'ull' is not known; did you mean 'ul'?"),
         ("[[row]]", "[row]", "road.toml:7: the road's file: row is not a list of tables, expected [[row]]"),
         ("side = \"right\"", "", "[[row]] 1: side is missing, expected one of left, right, opposite, staggered"),
         ("\"lamp.ies\"", "\".\"", "[[row]] 1: luminaire names"),
@@ -61,7 +68,7 @@ fn messages_tell_the_line() {
     let aimless = ROAD.replace("l_av = 0.5", "").replace("required = { e_av = 5 }", "");
     fs::write(&path, aimless).expect("a file");
     let told = Road::read(&path).expect_err("it is wrong").to_string();
-    assert!(told.contains("road.toml:24: the road's file: optimise has nothing to meet"), "{told}");
+    assert!(told.contains("road.toml:28: the road's file: optimise has nothing to meet"), "{told}");
     fs::write(&path, ROAD).expect("a file");
     Road::read(&path).expect("a road");
     fs::remove_dir_all(path.parent().expect("a folder")).expect("to be removed");

@@ -68,6 +68,38 @@ fn points_are_as_many_as_the_norm_says() {
 }
 
 #[test]
+fn the_drivers_view_has_the_same_numbers() {
+    let road = road(vec![row(luminaire(|_, _| 1000.0), Side::Opposite)]);
+    let results = road.evaluate();
+    let view = crate::sheet::view(&road, &results, 2);
+    for value in results.observers[1].luminance.iter().flatten() {
+        assert!(view.contains(&format!(">{}</text>", gonio_formats::short_number(*value))), "{value}");
+    }
+    assert_eq!(view.matches("<polygon").count(), 1 + results.field.along * results.field.across);
+    assert!(!view.contains("NaN") && !view.contains("inf"));
+    assert!(!crate::sheet::view(&road, &results, 9).contains("<polygon"));
+}
+
+#[test]
+fn the_first_class_that_is_met_is_told() {
+    use crate::{Class, Requirement};
+    let mut road = road(vec![row(luminaire(|_, _| 1000.0), Side::Opposite)]);
+    let [l_av, ti] = [road.evaluate().l_av, road.evaluate().ti.expect("glare")];
+    let class = |name: &str, l_av: f64, ti: f64| {
+        let required = vec![Requirement { key: "l_av", value: l_av }, Requirement { key: "ti", value: ti }];
+        Class { name: name.into(), required }
+    };
+    road.classes = vec![class("A", 1.1 * l_av, ti), class("B", l_av, 0.9 * ti), class("C", l_av, ti), class("D", 0.5 * l_av, ti)];
+    let results = road.evaluate();
+    assert_eq!(results.class.as_deref(), Some("C"));
+    assert_eq!(results.classes.iter().map(|class| class.met).collect::<Vec<_>>(), [false, false, true, true]);
+    // Classes are no requirement.
+    assert_eq!(results.met, None);
+    let lines = crate::text::lines(&results);
+    assert!(lines.contains(&"class: C".to_owned()) && lines.iter().any(|line| line.starts_with("class B: ti")), "{lines:?}");
+}
+
+#[test]
 fn power_and_energy() {
     let mut road = road(vec![row(luminaire(|_, _| 1000.0), Side::Opposite)]);
     road.periods = vec![crate::Period { hours: 2000.0, level: 1.0 }, crate::Period { hours: 2000.0, level: 0.5 }];

@@ -58,6 +58,7 @@ fn road(rows: Vec<Row>) -> Road {
         rows,
         footpaths: Vec::new(),
         required: Vec::new(),
+        classes: Vec::new(),
         periods: Vec::new(),
         ranges: None,
     }

@@ -1,7 +1,7 @@
-//! r-tables.
+//! r-tables and measured materials.
 
 use super::{close, luminaire, road, row};
-use crate::{Side, Standard, Surface, Table};
+use crate::{Material, Side, Standard, Surface, Table};
 use std::f64::consts::PI;
 
 /// The table of a Lambertian surface.
@@ -54,4 +54,24 @@ fn a_table_that_ends_early_is_told() {
     let mut road = road(vec![row(luminaire(|_, _| 1000.0), Side::Right)]);
     road.surface = Surface::table("short.txt", diffuse(0.2, &[0.0, 1.0, 5.0]));
     assert!(road.evaluate().notes.iter().any(|note| note.contains("short.txt: the table ends at tan γ 5")));
+}
+
+#[test]
+fn a_measured_material_is_seen_at_one_degree() {
+    let read = |text: &str| Surface::material("m", Material::read(text.as_bytes(), "m").expect("a format").expect("a material"));
+    let lambert = read(
+        "gbsdf 1\ntable reflection-front isotropic\naxis theta_i linear 2\n0 90\naxis theta_o linear 2\n0 90\naxis delta_phi linear 1\n0\nvalues text\n0.1 0.1 0.1 0.1\nend\n",
+    );
+    let expected = Surface::lambert(0.1 * PI);
+    for (beta, tangent) in [(0.0, 0.0), (30.0, 1.5), (180.0, 12.0)] {
+        close(lambert.reduced(beta, tangent, Standard::Cie140), expected.reduced(beta, tangent, Standard::Cie140), 1e-6);
+    }
+    close(lambert.figures.q0, 0.1, 1e-6);
+    // β = 0 is light from beyond the point, which goes on to the eye: φo − φi = 180°. The eye's θo is 89°.
+    let glossy = read(
+        "gbsdf 1\ntable reflection-front isotropic\nbilateral yes\naxis theta_i linear 1\n0\naxis theta_o linear 2\n0 90\naxis delta_phi linear 2\n0 180\nvalues text\n0 0 0.9 9\nend\n",
+    );
+    for (beta, value) in [(0.0, 9.0), (180.0, 0.9), (90.0, 4.95)] {
+        close(glossy.reduced(beta, 2.0, Standard::En13201), value * 89.0 / 90.0 / 5.0_f64.powf(1.5), 1e-6);
+    }
 }

@@ -1,4 +1,4 @@
-//! Illuminances along a line or on an area, as `gonio emergency` and `gonio sports` print them.
+//! Illuminances along a line or on an area, as `gonio emergency`, `gonio sports` and `gonio zones` print them.
 
 use super::{
     area::Figure,

@@ -13,6 +13,7 @@ mod road;
 mod sports;
 mod table;
 mod view_out;
+mod zones;
 
 pub(crate) use area::{Area, Figure};
 
@@ -48,8 +49,8 @@ pub struct Measured {
 }
 
 impl Measured {
-    /// Reads what `gonio measure`, `gonio annual`, `gonio annual-metrics`, `gonio view-out`, `gonio road`, `gonio emergency` and `gonio sports` print with
-    /// `--json`.
+    /// Reads what `gonio measure`, `gonio annual`, `gonio annual-metrics`, `gonio view-out`, `gonio road`, `gonio emergency`, `gonio sports` and `gonio zones`
+    /// print with `--json`.
     ///
     /// # Errors
     /// Bytes that are no JSON, or not that of one of these commands, with the file and what was found.
@@ -104,6 +105,8 @@ fn areas(bytes: &[u8], file: usize) -> Found<Vec<Area>> {
         emergency::read(&whole, file)
     } else if has("fields") && has("observers") {
         sports::read(&whole, file)
+    } else if has("rooms") && has("tasks") {
+        zones::read(&whole, file)
     } else {
         let found = listed(whole.keys().map(String::as_str));
         let found = if found.is_empty() { "nothing was found".to_owned() } else { format!("'{found}' were found") };

@@ -7,8 +7,7 @@ use serde_json::{Map, Value};
 pub(super) type Found<T> = Result<T, FormatError>;
 
 /// What is said of all other files.
-pub(super) const EXPECTED: &str =
-    "expected what 'gonio measure', 'gonio annual', 'gonio view-out', 'gonio road', 'gonio emergency' or 'gonio sports' print with --json";
+pub(super) const EXPECTED: &str = "expected what 'gonio measure', 'gonio annual', 'gonio view-out', 'gonio road', 'gonio emergency', 'gonio sports' or 'gonio zones' print with --json";
 
 pub(super) fn no_json(bytes: &[u8], error: &serde_json::Error) -> FormatError {
     if bytes.iter().all(u8::is_ascii_whitespace) {

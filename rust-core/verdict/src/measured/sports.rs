@@ -9,7 +9,7 @@ use crate::unit::Unit;
 use serde_json::{Map, Value};
 
 /// Ratios by their keys, and other names of them.
-const RATIOS: [(&str, &[&str]); 2] = [("u1", &["min_to_max"]), ("u2", &["min_to_average", "uo"])];
+const RATIOS: [(&str, &[&str]); 3] = [("u1", &["min_to_max"]), ("u2", &["min_to_average", "uo"]), ("gradient_ratio", &[])];
 
 pub(super) fn read(whole: &Map<String, Value>, file: usize) -> Found<Vec<Area>> {
     let mut areas = Vec::new();
@@ -19,7 +19,9 @@ pub(super) fn read(whole: &Map<String, Value>, file: usize) -> Found<Vec<Area>> 
         let cameras = objects(field, "cameras")?;
         let cameras = cameras.into_iter().map(|camera| Ok((text(camera, "name", "a camera")?, camera))).collect::<Found<Vec<_>>>()?;
         for (plane, lit) in planes.into_iter().chain(cameras) {
-            let of_plane = figures(lit, &RATIOS)?;
+            let mut of_plane = figures(lit, &RATIOS)?;
+            let gradient = estimate(lit, "gradient_percent", "gradient_percent_error")?;
+            of_plane.push(Figure { aliases: vec!["gradient".to_owned()], ..Figure::new("gradient_percent", gradient, Unit::of("%")) });
             area.figures.extend(of_plane.into_iter().map(|figure| Figure { of: Some(plane.to_owned()), wants_of: true, ..figure }));
         }
         if let Some(glare) = field.get("glare").and_then(Value::as_object) {
