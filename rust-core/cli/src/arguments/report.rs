@@ -7,7 +7,8 @@ use super::number::{count, finite};
 use super::stage::StageArguments;
 use super::texture::TextureArguments;
 use super::work::WorkArguments;
-use clap::Args;
+use clap::{Args, builder::PossibleValuesParser};
+use gonio_page::Language;
 use std::path::PathBuf;
 
 /// The end of `gonio report --help`.
@@ -16,6 +17,7 @@ pub(super) const REPORT_EXAMPLES: &str = "Examples:
   gonio report office.usda -o office.html --project 'Town hall' --place Vienna
   gonio report office.usda -o office.html --grid /Office/Floor --height 0.75 --margin 0.5 --max-illuminance 1000
   gonio report office.usda -o office.html --grid /Office/Floor --height 0.75 --eyes sitting
+  gonio report office.usda -o buero.pdf --language de
   gonio report office.usda -o schedule.html --no-pictures          luminaires and the stage's own grids alone
 
 What stands in it:
@@ -34,9 +36,12 @@ What stands in it:
 pub(crate) struct ReportOptions {
     #[command(flatten)]
     pub(crate) stage: StageArguments,
-    /// The page to write; it takes its name when it is complete.
-    #[arg(long, short = 'o', value_name = "FILE.html")]
+    /// The page to write, or a PDF by Chromium or Chrome where the machine has one; it takes its name when it is complete.
+    #[arg(long, short = 'o', value_name = "FILE.html|FILE.pdf")]
     pub(crate) output: PathBuf,
+    /// The page's language; what the stage asks for and was not done is told in English.
+    #[arg(long, default_value = "en", value_parser = PossibleValuesParser::new(Language::CODES.map(|(code, _)| code)))]
+    pub(crate) language: String,
     /// The page's title; without it the stage's file name without its ending.
     #[arg(long, value_name = "TEXT")]
     pub(crate) title: Option<String>,

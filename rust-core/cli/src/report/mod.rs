@@ -5,7 +5,6 @@ mod eyes;
 mod grids;
 mod head;
 mod html;
-mod numbers;
 mod pictures;
 mod power;
 mod schedule;
@@ -18,13 +17,14 @@ use super::{
     daylight,
     denoise::Denoiser,
     falsecolor,
-    file::{check_ending, check_targets, print_path, put},
+    file::{check_ending, check_targets, ending, print_path, put},
     measure::{apply_settings, author_grids, evaluated},
     messages::say,
     messages::tell,
     progress::Reporter,
     render::stage_options,
     stage::{Stage, light_model},
+    words::Words,
 };
 use colour::Colours;
 use gonio::{
@@ -34,27 +34,41 @@ use gonio::{
     output::FalseColourScale,
     scene::Integrator,
 };
+use gonio_page::{Language, PdfError, check_browser, pdf};
 use gonio_usd::{Loaded, SampleTime, camera::choose, meter::axes};
 use pyo3::prelude::*;
 use schedule::Schedule;
-use std::sync::{Arc, atomic::AtomicBool};
+use std::{
+    path::Path,
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
+};
+
+/// Endings of a page's file.
+const ENDINGS: &[&str] = &["html", "htm", "pdf"];
 
 /// Writes the page.
 pub(super) fn report(py: Python<'_>, options: &ReportOptions, interrupted: &'static AtomicBool) -> Result<i32> {
-    check_ending("output", &options.output, &["html", "htm"])?;
+    check_ending("output", &options.output, ENDINGS)?;
     // Said before anything is rendered.
     FalseColourScale::new(options.max_illuminance.unwrap_or(1.0), options.steps, None)?;
     FalseColourScale::new(options.max_luminance.unwrap_or(1.0), options.steps, None)?;
     check_targets([&options.output])?;
+    if ending(&options.output) == "pdf" {
+        check_browser().map_err(|error| Error::setting("output", error.to_string()))?;
+    }
     let mut stage_options = stage_options(&options.stage)?;
     stage_options.time = options.frame.map_or(SampleTime::Start, SampleTime::Code);
     let stage = Stage::open(py, &options.stage.stage, &options.stage.state, &stage_options)?;
     author_grids(py, &stage, &options.grids, None)?;
     let mut loaded = stage.load(py, &stage_options, interrupted)?;
-    eyes::add(&mut loaded.scene, options)?;
+    let words = Words::new(Language::of_code(&options.language));
+    eyes::add(&mut loaded.scene, options, &words)?;
     let today = today(py).map_err(|error| Error::Internal(error.to_string()))?;
     let denoiser = denoiser(options);
-    py.detach(|| run(options, loaded, today, denoiser.as_ref(), interrupted))
+    py.detach(|| run((options, &words), loaded, today, denoiser.as_ref(), interrupted))
 }
 
 /// What takes the noise out of the pictures, unless that is not wanted or not to be had, which is told.
@@ -69,7 +83,7 @@ fn denoiser(options: &ReportOptions) -> Option<Denoiser> {
 }
 
 fn run(
-    options: &ReportOptions,
+    (options, words): (&ReportOptions, &Words),
     mut loaded: Loaded,
     today: String,
     denoiser: Option<&Denoiser>,
@@ -83,23 +97,45 @@ fn run(
     let measured = measured(options, &mut loaded, compiled.as_deref(), interrupted, &mut diagnostics)?;
     let lit = (&loaded.scene, &measured);
     let colours = Colours::new(lit, compiled.as_deref(), Reporter::new(options.quiet), interrupted)?;
-    let power = power(options, &loaded, compiled, &measured, interrupted)?;
+    let power = power(options, (&loaded, words), compiled, &measured, interrupted)?;
     tell(&options.stage, options.quiet, &diagnostics);
-    let schedule = Schedule::new(&loaded);
-    let mut page = Page::new(&Head::new(options, today));
-    schedule.write(&mut page);
-    pictures::write(&pictures, &mut page);
-    grids::write_grids(options, &measured.grids, &power, &mut page)?;
-    grids::write_meters(&measured.meters, &mut page);
-    colours.write(options, &mut page)?;
-    schedule.write_files(&mut page);
-    write_notes(&diagnostics, &mut page);
-    let text = page.finish();
-    put(&options.output, text.as_bytes())?;
+    let schedule = Schedule::new(&loaded, words);
+    let mut page = Page::new(&Head::new(options, today, words), words);
+    schedule.write(words, &mut page);
+    pictures::write(&pictures, words, &mut page);
+    grids::write_grids(options, &measured.grids, &power, (words, &mut page))?;
+    grids::write_meters(&measured.meters, words, &mut page);
+    colours.write(options, words, &mut page)?;
+    schedule.write_files(words, &mut page);
+    write_notes(&diagnostics, words, &mut page);
+    let html = page.finish();
+    let bytes = as_file(html.clone(), &options.output, interrupted).or_else(|error| kept(&html, &options.output, error))?;
+    put(&options.output, &bytes)?;
     if !options.quiet {
         print_path(&options.output);
     }
     Ok(0)
+}
+
+/// Writes a page beside the PDF that a browser did not make of it, so that nothing is lost; gives the error that says so.
+fn kept(html: &str, path: &Path, error: Error) -> Result<Vec<u8>> {
+    let Error::Setting { problem, .. } = &error else { return Err(error) };
+    let beside = path.with_extension("html");
+    let told = format!("{problem}; the page is kept as {}", beside.display());
+    put(&beside, html.as_bytes())?;
+    Err(Error::setting("output", told))
+}
+
+/// A page as the bytes of a file by the ending of its name: itself, or a PDF.
+pub(super) fn as_file(html: String, path: &Path, interrupted: &AtomicBool) -> Result<Vec<u8>> {
+    if ending(path) != "pdf" {
+        return Ok(html.into_bytes());
+    }
+    let stopped = || interrupted.load(Ordering::Relaxed);
+    pdf(&html, &stopped).map_err(|error| match error {
+        PdfError::Stopped => Error::Cancelled,
+        error => Error::setting("output", error.to_string()),
+    })
 }
 
 /// The paths of the cameras whose pictures are wanted; a nameless one sees everything of a stage without cameras.
@@ -136,7 +172,7 @@ fn measured(
 /// The lines of the installed power density, of a scene that may have been compiled for its pictures.
 fn power(
     options: &ReportOptions,
-    loaded: &Loaded,
+    (loaded, words): (&Loaded, &Words),
     compiled: Option<Arc<CompiledScene>>,
     measured: &Measurements,
     interrupted: &'static AtomicBool,
@@ -146,15 +182,15 @@ fn power(
     }
     let scene = compiled.map_or_else(|| compile(&loaded.scene, None, interrupted).map(Arc::new), Ok)?;
     let [up, _] = axes(loaded.info.up_axis);
-    Ok(power::density(&measured.grids, &Schedule::new(loaded), &scene, up, options.grid_density))
+    Ok(power::density(&measured.grids, &Schedule::new(loaded, words), &scene, (up, options.grid_density), words))
 }
 
 /// What the stage asks for and is not as asked.
-fn write_notes(diagnostics: &[Diagnostic], page: &mut Page) {
+fn write_notes(diagnostics: &[Diagnostic], words: &Words, page: &mut Page) {
     let warnings: Vec<String> =
         diagnostics.iter().filter(|diagnostic| diagnostic.severity == Severity::Warning).map(ToString::to_string).collect();
     if !warnings.is_empty() {
-        page.section("What is not as the stage asks");
+        page.section(&words.notes.title);
         page.list(&warnings);
     }
 }

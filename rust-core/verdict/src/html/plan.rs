@@ -1,11 +1,11 @@
 //! A grid's values in false colour.
 
-use super::{
+use crate::plan::Plan;
+use gonio_page::{
+    Numbers,
     colour::{colour, ink},
     escaped,
 };
-use crate::{number::Numbers, plan::Plan};
-use gonio_formats::short_number;
 
 /// Most cells that are drawn.
 const MOST: usize = 10_000;
@@ -47,7 +47,7 @@ impl Drawn {
             let Some(value) = *value else { continue };
             let fill = colour(share(value));
             svg.push_str(&format!("<rect x=\"{x:.2}\" y=\"{y:.2}\" width=\"{:.2}\" height=\"{:.2}\" fill=\"{fill}\"/>", cell[0], cell[1]));
-            svg.push_str(&text(&numbers.form(&short_number(value)), [x + 0.5 * cell[0], y + 0.5 * cell[1]], cell, ink(share(value))));
+            svg.push_str(&text(&numbers.short(value), [x + 0.5 * cell[0], y + 0.5 * cell[1]], cell, ink(share(value))));
         }
         if let Some(index) = least(plan) {
             let [x, y] = corner(index / plan.size[0] / block * coarse.size[0] + index % plan.size[0] / block);
@@ -97,7 +97,7 @@ fn legend([low, high]: [f64; 2], top: f64, unit: &str, numbers: Numbers) -> Stri
     let tick = |index: usize| {
         let share = index as f64 / (TICKS - 1) as f64;
         let sign = if index + 1 == TICKS { format!(" {unit}") } else { String::new() };
-        let value = numbers.form(&short_number(low + share * (high - low))) + &sign;
+        let value = numbers.short(low + share * (high - low)) + &sign;
         let (x, y) = (left + 0.5 * ROOM[0] * share, y + 30.0);
         format!(
             "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"16\" text-anchor=\"middle\" fill=\"currentColor\">{}</text>",
