@@ -1,5 +1,5 @@
 //! What pages for readers share, such as verdict sheets, reports and pictures to play with: [`Language`]s and their [`Numbers`], words with places to
-//! [`fill`], text as HTML holds it, [`colour`]s of values, and [`pdf`] by a browser.
+//! [`fill`], text as HTML holds it, [`plot`]s, [`colour`]s of values, and [`pdf`] by a browser.
 
 #![forbid(unsafe_code)]
 
@@ -8,6 +8,7 @@ mod html;
 mod language;
 mod number;
 mod pdf;
+pub mod plot;
 mod words;
 
 pub use html::escaped;

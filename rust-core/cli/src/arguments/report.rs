@@ -18,6 +18,7 @@ pub(super) const REPORT_EXAMPLES: &str = "Examples:
   gonio report office.usda -o office.html --grid /Office/Floor --height 0.75 --margin 0.5 --max-illuminance 1000
   gonio report office.usda -o office.html --grid /Office/Floor --height 0.75 --eyes sitting
   gonio report office.usda -o buero.pdf --language de
+  gonio annual office.usda --weather mannheim.epw --grid /Office/Floor -o year && gonio report office.usda -o office.html --annual year
   gonio report office.usda -o schedule.html --no-pictures          luminaires and the stage's own grids alone
 
 What stands in it:
@@ -29,6 +30,7 @@ What stands in it:
   grids, meters   average, least and greatest value, U0 and Ud with standard errors, and pictures with the values at their points
   colour          where lamps have spectra or a grid or meter measures a colour: CCT, Duv, Ra, R9, Rf, Rg, melanopic DER and EDI with
                   standard errors, the spectral irradiance beside TM-30's colour vector graphic, plans of melanopic EDI
+  year            of --annual: sDA, ASE, UDI, DA, cDA, daylight factor and EN 17037 with standard errors, on the plan, over days and hours, by point
   files           the polar diagram, the figures and the UGR table of each IES or EULUMDAT file
   notes           what the stage asks for and was not done";
 
@@ -111,6 +113,9 @@ pub(crate) struct ReportOptions {
     /// Where these eyes look, in place of all around; may be given several times.
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, requires = "eyes")]
     pub(crate) facing: Vec<String>,
+    /// Add a year of daylight: the folder that 'gonio annual -o' wrote. May be given several times, such as without and with blinds.
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) annual: Vec<PathBuf>,
     #[command(flatten)]
     pub(crate) daylight: DaylightArguments,
 }

@@ -93,6 +93,11 @@ impl Page {
         self.text.push_str(&format!("<figure class=\"grid\">{svg}<figcaption>{caption}</figcaption></figure>\n"));
     }
 
+    /// A plot that has its title and its own colours for light and dark.
+    pub(crate) fn plot(&mut self, svg: &str) {
+        self.text.push_str(&format!("<figure class=\"plot\">{svg}</figure>\n"));
+    }
+
     pub(crate) fn finish(mut self) -> String {
         self.text.push_str(&format!("<script>\n{SCRIPT}</script>\n</body>\n</html>\n"));
         self.text

@@ -8,6 +8,7 @@ mod html;
 mod pictures;
 mod power;
 mod schedule;
+mod year;
 
 pub(super) use head::{Head, today};
 pub(super) use html::Page;
@@ -45,6 +46,7 @@ use std::{
         atomic::{AtomicBool, Ordering},
     },
 };
+use year::Years;
 
 /// Endings of a page's file.
 const ENDINGS: &[&str] = &["html", "htm", "pdf"];
@@ -59,6 +61,7 @@ pub(super) fn report(py: Python<'_>, options: &ReportOptions, interrupted: &'sta
     if ending(&options.output) == "pdf" {
         check_browser().map_err(|error| Error::setting("output", error.to_string()))?;
     }
+    let years = Years::read(&options.annual)?;
     let mut stage_options = stage_options(&options.stage)?;
     stage_options.time = options.frame.map_or(SampleTime::Start, SampleTime::Code);
     let stage = Stage::open(py, &options.stage.stage, &options.stage.state, &stage_options)?;
@@ -68,7 +71,7 @@ pub(super) fn report(py: Python<'_>, options: &ReportOptions, interrupted: &'sta
     eyes::add(&mut loaded.scene, options, &words)?;
     let today = today(py).map_err(|error| Error::Internal(error.to_string()))?;
     let denoiser = denoiser(options);
-    py.detach(|| run((options, &words), loaded, today, denoiser.as_ref(), interrupted))
+    py.detach(|| run((options, &words), loaded, (today, &years), denoiser.as_ref(), interrupted))
 }
 
 /// What takes the noise out of the pictures, unless that is not wanted or not to be had, which is told.
@@ -85,7 +88,7 @@ fn denoiser(options: &ReportOptions) -> Option<Denoiser> {
 fn run(
     (options, words): (&ReportOptions, &Words),
     mut loaded: Loaded,
-    today: String,
+    (today, years): (String, &Years),
     denoiser: Option<&Denoiser>,
     interrupted: &'static AtomicBool,
 ) -> Result<i32> {
@@ -106,8 +109,9 @@ fn run(
     grids::write_grids(options, &measured.grids, &power, (words, &mut page))?;
     grids::write_meters(&measured.meters, words, &mut page);
     colours.write(options, words, &mut page)?;
+    years.write(words, &mut page);
     schedule.write_files(words, &mut page);
-    write_notes(&diagnostics, words, &mut page);
+    write_notes(&diagnostics, years, words, &mut page);
     let html = page.finish();
     let bytes = as_file(html.clone(), &options.output, interrupted).or_else(|error| kept(&html, &options.output, error))?;
     put(&options.output, &bytes)?;
@@ -186,9 +190,14 @@ fn power(
 }
 
 /// What the stage asks for and is not as asked.
-fn write_notes(diagnostics: &[Diagnostic], words: &Words, page: &mut Page) {
-    let warnings: Vec<String> =
-        diagnostics.iter().filter(|diagnostic| diagnostic.severity == Severity::Warning).map(ToString::to_string).collect();
+fn write_notes(diagnostics: &[Diagnostic], years: &Years, words: &Words, page: &mut Page) {
+    let own = diagnostics.iter().filter(|diagnostic| diagnostic.severity == Severity::Warning).map(ToString::to_string);
+    let mut warnings: Vec<String> = own.collect();
+    for warning in years.warnings() {
+        if !warnings.contains(&warning) {
+            warnings.push(warning);
+        }
+    }
     if !warnings.is_empty() {
         page.section(&words.notes.title);
         page.list(&warnings);

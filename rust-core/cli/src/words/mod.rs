@@ -2,12 +2,14 @@
 
 mod light;
 mod report;
+mod year;
 
 use gonio_page::{Language, Numbers, read};
 pub(crate) use light::{FileWords, GlareWords, LightsWords, RatingWords, UgrWords};
 pub(crate) use report::{ColourWords, GridsWords, HeadWords, LuminairesWords, NotesWords, PageWords, PicturesWords, PowerWords};
 use serde::Deserialize;
 use std::sync::LazyLock;
+pub(crate) use year::YearWords;
 
 /// All words of a language, and how it writes numbers. Names between braces are filled in.
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -31,6 +33,7 @@ pub(crate) struct Words {
     pub(crate) ugr: UgrWords,
     pub(crate) glare: GlareWords,
     pub(crate) rating: RatingWords,
+    pub(crate) year: YearWords,
 }
 
 impl Words {
