@@ -1,9 +1,17 @@
 //! One HTML page that needs nothing beside itself.
 
 use super::head::Head;
-use crate::words::Words;
+use crate::{
+    file::{ending, put},
+    words::Words,
+};
 use base64::{Engine, engine::general_purpose::STANDARD};
-use gonio_page::escaped;
+use gonio::{Error, Result};
+use gonio_page::{PdfError, escaped, pdf};
+use std::{
+    path::Path,
+    sync::atomic::{AtomicBool, Ordering},
+};
 
 /// How the page looks, on a screen and on paper.
 const STYLE: &str = include_str!("style.css");
@@ -102,6 +110,27 @@ impl Page {
         self.text.push_str(&format!("<script>\n{SCRIPT}</script>\n</body>\n</html>\n"));
         self.text
     }
+}
+
+/// Writes a page beside the PDF that a browser did not make of it, so that nothing is lost; gives the error that says so.
+pub(super) fn kept(html: &str, path: &Path, error: Error) -> Result<Vec<u8>> {
+    let Error::Setting { problem, .. } = &error else { return Err(error) };
+    let beside = path.with_extension("html");
+    let told = format!("{problem}; the page is kept as {}", beside.display());
+    put(&beside, html.as_bytes())?;
+    Err(Error::setting("output", told))
+}
+
+/// A page as the bytes of a file by the ending of its name: itself, or a PDF.
+pub(crate) fn as_file(html: String, path: &Path, interrupted: &AtomicBool) -> Result<Vec<u8>> {
+    if ending(path) != "pdf" {
+        return Ok(html.into_bytes());
+    }
+    let stopped = || interrupted.load(Ordering::Relaxed);
+    pdf(&html, &stopped).map_err(|error| match error {
+        PdfError::Stopped => Error::Cancelled,
+        error => Error::setting("output", error.to_string()),
+    })
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@ mod schedule;
 mod year;
 
 pub(super) use head::{Head, today};
-pub(super) use html::Page;
+pub(super) use html::{Page, as_file};
 
 use super::{
     arguments::{ReportOptions, ScaleArguments},
@@ -35,17 +35,11 @@ use gonio::{
     output::FalseColourScale,
     scene::Integrator,
 };
-use gonio_page::{Language, PdfError, check_browser, pdf};
+use gonio_page::{Language, check_browser};
 use gonio_usd::{Loaded, SampleTime, camera::choose, meter::axes};
 use pyo3::prelude::*;
 use schedule::Schedule;
-use std::{
-    path::Path,
-    sync::{
-        Arc,
-        atomic::{AtomicBool, Ordering},
-    },
-};
+use std::sync::{Arc, atomic::AtomicBool};
 use year::Years;
 
 /// Endings of a page's file.
@@ -113,33 +107,12 @@ fn run(
     schedule.write_files(words, &mut page);
     write_notes(&diagnostics, years, words, &mut page);
     let html = page.finish();
-    let bytes = as_file(html.clone(), &options.output, interrupted).or_else(|error| kept(&html, &options.output, error))?;
+    let bytes = as_file(html.clone(), &options.output, interrupted).or_else(|error| html::kept(&html, &options.output, error))?;
     put(&options.output, &bytes)?;
     if !options.quiet {
         print_path(&options.output);
     }
     Ok(0)
-}
-
-/// Writes a page beside the PDF that a browser did not make of it, so that nothing is lost; gives the error that says so.
-fn kept(html: &str, path: &Path, error: Error) -> Result<Vec<u8>> {
-    let Error::Setting { problem, .. } = &error else { return Err(error) };
-    let beside = path.with_extension("html");
-    let told = format!("{problem}; the page is kept as {}", beside.display());
-    put(&beside, html.as_bytes())?;
-    Err(Error::setting("output", told))
-}
-
-/// A page as the bytes of a file by the ending of its name: itself, or a PDF.
-pub(super) fn as_file(html: String, path: &Path, interrupted: &AtomicBool) -> Result<Vec<u8>> {
-    if ending(path) != "pdf" {
-        return Ok(html.into_bytes());
-    }
-    let stopped = || interrupted.load(Ordering::Relaxed);
-    pdf(&html, &stopped).map_err(|error| match error {
-        PdfError::Stopped => Error::Cancelled,
-        error => Error::setting("output", error.to_string()),
-    })
 }
 
 /// The paths of the cameras whose pictures are wanted; a nameless one sees everything of a stage without cameras.
