@@ -71,7 +71,10 @@ impl Page {
         let head = row("th scope=\"col\"", &mut names.iter().map(AsRef::as_ref));
         let body: String = rows.iter().map(|cells| row("td", &mut cells.iter().map(String::as_str))).collect();
         let foot = if totals.is_empty() { String::new() } else { row("td", &mut totals.iter().map(String::as_str)) };
+        // Where a table is wider than the page, it alone is moved aside.
+        self.text.push_str("<div class=\"table\">\n");
         self.element("table", &format!("\n<thead>{head}</thead>\n<tbody>{body}</tbody>\n<tfoot>{foot}</tfoot>\n"));
+        self.text.push_str("</div>\n");
     }
 
     /// A picture's file in the page itself; `format` as in `png`.

@@ -92,7 +92,7 @@
         const line = document.createElement("p");
         line.className = "tools";
         line.append(button, told);
-        table.before(line);
+        table.parentElement.before(line);
     };
 
     for (const table of document.querySelectorAll("table")) {
