@@ -157,6 +157,20 @@ def test_blocks_tell_standard_errors(run, folder):
     assert "sDA 300/50 %" in text and "±" in text and "not known without coefficients of the sun" in text
 
 
+def test_errors_of_a_grid_are_those_of_the_jackknife(run, folder):
+    """By the figures of the mean of all blocks but one, each calculated by itself."""
+    blocks = np.array([level(0.01, 0.03, 0.02), level(0.02, 0.01, 0.022), level(0.015, 0.02, 0.024)])
+    whole = calculated(run, folder, "--coefficients", saved(folder / "room.npy", blocks))["grids"][0]
+    files = [saved(folder / f"without_{k}.npy", np.delete(blocks, k, 0).mean(0)) for k in range(3)]
+    without = calculated(run, folder, "--coefficients", *files)["grids"]
+    shares = lambda of: [of["en17037"][method]["area_100_300_500_750"] for method in ("hourly", "daylight_factor")]
+    for figures in (lambda of: [of["da_300"], of["cda_300"], of["udi_100_3000"], of["mean_lx"]], shares):
+        found = np.array([figures(grid) for grid in without])
+        expected = np.sqrt(2 / 3 * ((found - found.mean(0)) ** 2).sum(0))
+        assert np.array(figures(whole["standard_errors"])) == pytest.approx(expected, rel=1e-4, abs=1e-9) and expected.max() > 0
+    assert whole["da_300"] == pytest.approx(np.mean([point["da_300"] for point in whole["points"]]))
+
+
 @pytest.mark.parametrize("parts", [12, 4, 1])
 @pytest.mark.parametrize("first", [1.0, 0.0, 0.5], ids=["ends", "starts", "middles"])
 def test_hours_may_be_counted_by_their_ends(run, folder, parts, first):

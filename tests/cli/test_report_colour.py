@@ -65,7 +65,7 @@ def test_figures_are_those_of_the_lamp(run, tmp_path):
     # I = π r² L, straight above the desk but for 0.2 m.
     lux = 20000 * 3.14159265 * 0.05**2 * 2.25 / (2.25**2 + 0.04) ** 1.5
     assert float(rows[1][-1].split()[0]) == pytest.approx(expected["melanopic_der"] * lux, rel=0.01)
-    assert text.count("TM-30 colour vectors") == 3 and "/Table: melanopic-edi lx" in text
+    assert text.count("TM-30 colour vectors") == 3 and "/Table: melanopic EDI lx" in text
     # It reads well on phones and on dark screens.
     assert 'name="viewport"' in text and "prefers-color-scheme: dark" in text
 
@@ -74,7 +74,7 @@ def test_eyes_over_the_surfaces_of_the_command_line(run, tmp_path):
     _, reader = page(run, tmp_path, "--grid", "/Floor", "--spacing", 2, "--height", 0.75, "--eyes", "standing", "--directions", 2)
     rows = reader.table("grid")
     grids = {row[0]: row[1] for row in rows[1:]}
-    assert grids == {"/Floor": "illuminance", "/Table": "ra", "/Floor, eyes at 1.6 m": "melanopic-edi"}
+    assert grids == {"/Floor": "illuminance", "/Table": "colour rendering Ra", "/Floor, eyes at 1.6 m": "melanopic EDI"}
     eyes = next(table for table in reader.tables if "least eye" in table[0])
     assert [row[2] for row in eyes[1:]] == ["2 directions", "0.00, 1.00, 0.00", "0.00, -1.00, 0.00"]
 

@@ -36,7 +36,7 @@ fn lines_with(folder: &str, needle: &str) -> Vec<String> {
 }
 
 /// Crates of the engine from the ground up, and which others of gonio each may use.
-const CRATES: [(&str, &[&str]); 23] = [
+const CRATES: [(&str, &[&str]); 24] = [
     ("simd", &[]),
     ("formats", &[]),
     ("spectrum", &["formats"]),
@@ -46,9 +46,10 @@ const CRATES: [(&str, &[&str]); 23] = [
     ("road", &["formats"]),
     ("sky", &[]),
     ("annual", &["formats", "simd", "sky"]),
-    ("share", &[]),
+    ("page", &["formats"]),
+    ("share", &["page"]),
     ("dimming", &["spectrum"]),
-    ("verdict", &["formats"]),
+    ("verdict", &["formats", "page"]),
     ("accel", &["simd"]),
     ("image", &["simd"]),
     ("table", &["simd"]),

@@ -50,7 +50,7 @@ pub struct ElectricLight {
 }
 
 /// A year of electric light.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Electric {
     /// Used hours with daylight, in which the lamps follow it.
     pub daylight_hours: f64,

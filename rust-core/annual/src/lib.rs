@@ -37,7 +37,7 @@ pub use error::AnnualError;
 pub use evaluate::{Settings, evaluate};
 pub use glare::{EyeGlare, GlareYear, SkyView, dgp, dgp_low_light};
 pub use group::{Blinds, Group};
-pub use metrics::{En17037, Grid, GridErrors, Level, Method, Point};
+pub use metrics::{AreaErrors, En17037, En17037Errors, Grid, GridErrors, Level, Method, Point};
 pub use position_index::position_index;
 pub use product::Panels;
 pub use schedule::Schedule;

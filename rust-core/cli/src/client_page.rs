@@ -16,7 +16,8 @@ use gonio::{
     output::{Channels, Look, display_over_black, encode_jpeg, exposure_of_exr, log_average, read_exr},
     scene::{LIGHT_GROUP, OTHER_LIGHTS},
 };
-use gonio_share::{Group, Language, Page, Picture, Problem, Scene, Setting, Tints, page};
+use gonio_page::Language;
+use gonio_share::{Group, Page, Picture, Problem, Scene, Setting, Tints, page};
 use gonio_simd::Execution;
 use pyo3::Python;
 use std::{path::Path, sync::atomic::AtomicBool};
@@ -88,7 +89,6 @@ fn picture(options: &ShareOptions, channels: &Channels, names: &[String], size: 
     }
     let mut sum = vec![0.0; 3 * size[0] * size[1]];
     groups.iter().for_each(|group| sum.iter_mut().zip(&group.light).for_each(|(sum, light)| *sum += light));
-    let language = Language::CODES.iter().find(|(code, _)| *code == options.language).map_or(Language::English, |(_, language)| *language);
     let stem = || options.picture.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     Ok(Picture {
         title: options.title.clone().unwrap_or_else(stem),
@@ -105,7 +105,7 @@ fn picture(options: &ShareOptions, channels: &Channels, names: &[String], size: 
         scenes: options.scene.iter().map(|text| scene(&groups, text)).collect::<Result<_>>()?,
         groups,
         hours: options.hours,
-        language,
+        language: Language::of_code(&options.language),
         limit: (options.max_size * 1e6) as usize,
     })
 }

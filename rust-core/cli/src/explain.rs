@@ -1,6 +1,6 @@
 //! `--explain`: what a prim has become.
 
-use super::{arguments::RenderOptions, light_words::describe, messages::print, render::sample_time, stage::Stage};
+use super::{arguments::RenderOptions, light_words::describe, messages::print, render::sample_time, stage::Stage, words::Words};
 use gonio::{
     Result,
     compile::luminous_fluxes,
@@ -44,7 +44,7 @@ fn lights(loaded: &Loaded, path: &str) -> Vec<String> {
     own.map(|(light, flux)| {
         let flux = flux.map_or(String::new(), |flux| format!(", {} lm in all", short_number(flux)));
         let group = if light.group.is_empty() { String::new() } else { format!(", light group '{}'", light.group) };
-        format!("light: {}{flux}{group}", describe(light))
+        format!("light: {}{flux}{group}", describe(light, Words::english()))
     })
     .collect()
 }

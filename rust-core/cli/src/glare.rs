@@ -6,6 +6,8 @@ use super::{
     falsecolor::write,
     file::{check_ending, check_targets},
     messages::print,
+    rating_words,
+    words::Words,
 };
 use gonio::{
     Error, Result,
@@ -13,6 +15,7 @@ use gonio::{
     measure::glare::{Coverage, EyeView, Glare, GlareOptions, GlareSource, Threshold},
     output::{Canvas, FalseColourScale},
 };
+use gonio_page::fill;
 use serde_json::{Value, json};
 
 /// Colours that sources take in turn.
@@ -33,7 +36,7 @@ pub(super) fn glare(options: &GlareArguments) -> Result<i32> {
     if options.json {
         print(&as_json(&found).to_string());
     } else {
-        as_text(&found).iter().for_each(|line| print(line));
+        as_text(&found, Words::english()).iter().for_each(|line| print(line));
     }
     Ok(0)
 }
@@ -115,47 +118,51 @@ pub(super) fn coverage_json(coverage: &Coverage) -> Value {
 }
 
 /// The rating, or why there is none, and what it leaves out.
-fn ugr_line(glare: &Glare) -> String {
-    let coverage = glare.coverage();
+fn ugr_line(glare: &Glare, words: &Words) -> String {
+    let (coverage, say) = (glare.coverage(), &words.glare);
     let rating = match glare.ugr() {
-        Some(ugr) => format!("UGR: {ugr:.1}"),
-        None if coverage.sources > coverage.left_out() => "UGR: not defined, the background is black".to_owned(),
-        None => "UGR: no source of glare ahead".to_owned(),
+        Some(ugr) => fill(&say.ugr, &[("value", &words.numbers.fixed(ugr, 1))]),
+        None if coverage.sources > coverage.left_out() => say.black.clone(),
+        None => say.no_source.clone(),
     };
-    let percent = 100.0 * glare.seen;
-    let part = (glare.seen < 1.0).then(|| format!("of the {percent:.0} % of what lights the eye that the picture shows"));
-    let notes: Vec<String> = part.into_iter().chain(coverage.note()).collect();
+    let part = (glare.seen < 1.0).then(|| fill(&say.part, &[("percent", &format!("{:.0}", 100.0 * glare.seen))]));
+    let notes: Vec<String> = part.into_iter().chain(rating_words::coverage(&coverage, words)).collect();
     if notes.is_empty() { rating } else { format!("{rating} ({})", notes.join("; ")) }
 }
 
 /// The probability and the light at the eye, or why they are not known.
-fn eye_lines(glare: &Glare) -> [String; 2] {
+fn eye_lines(glare: &Glare, words: &Words) -> [String; 2] {
+    let (say, numbers) = (&words.glare, words.numbers);
     match (glare.dgp(), glare.dgp_low_light(), glare.eye_illuminance) {
-        (Some(dgp), Some(low), Some(illuminance)) => {
-            [format!("DGP: {dgp:.3} ({low:.3} with the correction for little light)"), format!("at the eye: {illuminance:.1} lx")]
-        }
-        _ => [
-            "DGP: not known, the picture shows less than a hemisphere; --illuminance gives the light at the eye".to_owned(),
-            format!("at the eye: not known, {:.1} lx by what the picture shows", glare.seen_illuminance),
+        (Some(dgp), Some(low), Some(illuminance)) => [
+            fill(&say.dgp, &[("value", &numbers.fixed(dgp, 3)), ("low", &numbers.fixed(low, 3))]),
+            fill(&say.at_eye, &[("illuminance", &numbers.fixed(illuminance, 1))]),
         ],
+        _ => [say.no_dgp.clone(), fill(&say.no_light, &[("illuminance", &numbers.fixed(glare.seen_illuminance, 1))])],
     }
 }
 
 /// The rating, line by line.
-pub(super) fn as_text(glare: &Glare) -> Vec<String> {
-    let [dgp, eye] = eye_lines(glare);
+pub(super) fn as_text(glare: &Glare, words: &Words) -> Vec<String> {
+    let (say, numbers) = (&words.glare, words.numbers);
+    let [dgp, eye] = eye_lines(glare, words);
+    let [background, mean] = [glare.background_luminance, glare.mean_luminance].map(|value| numbers.fixed(value, 2));
+    let (threshold, count) = (format!("{:.0}", glare.threshold), glare.sources.len().to_string());
     let mut lines = vec![
-        ugr_line(glare),
+        ugr_line(glare, words),
         dgp,
         eye,
-        format!("background: {:.2} cd/m², mean: {:.2} cd/m²", glare.background_luminance, glare.mean_luminance),
-        format!("sources from {:.0} cd/m²: {}", glare.threshold, glare.sources.len()),
+        fill(&say.background, &[("background", &background), ("mean", &mean)]),
+        fill(&say.sources, &[("threshold", &threshold), ("count", &count)]),
     ];
     lines.extend(glare.sources.iter().map(|source| {
-        let [right, up] = angles(source);
-        let (luminance, solid_angle, index) = (source.luminance, source.solid_angle, source.position_index);
-        let of_ugr = source.cie_position_index().map_or("left out of UGR".to_owned(), |index| format!("UGR's {index:.2}"));
-        format!("  {luminance:.0} cd/m², {solid_angle:.5} sr, {right:.1}° right, {up:.1}° up, position index {index:.2} ({of_ugr})")
+        let [right, up] = angles(source).map(|angle| numbers.fixed(angle, 1));
+        let index = numbers.fixed(source.position_index, 2);
+        let of_ugr = |index: f64| fill(&say.of_ugr, &[("index", &numbers.fixed(index, 2))]);
+        let of_ugr = source.cie_position_index().map_or(say.left_out.clone(), of_ugr);
+        let (luminance, solid_angle) = (format!("{:.0}", source.luminance), numbers.fixed(source.solid_angle, 5));
+        let values = [("luminance", luminance.as_str()), ("solid_angle", &solid_angle), ("right", &right), ("up", &up)];
+        fill(&say.source, &[&values[..], &[("index", &index), ("of_ugr", &of_ugr)]].concat())
     }));
     lines
 }

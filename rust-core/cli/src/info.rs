@@ -2,7 +2,7 @@
 
 use super::{
     arguments::InfoOptions, explain, lamps_in_view, light_numbers, light_words::describe, messages::diagnostics_json, messages::print,
-    photometry, render::stage_options, stage::Stage, volume,
+    photometry, render::stage_options, stage::Stage, volume, words::Words,
 };
 use gonio::{
     Diagnostic, Result,
@@ -89,7 +89,7 @@ fn as_text(loaded: &gonio_usd::Loaded, compiled: &CompiledScene, diagnostics: &[
     }
     lines.extend(volumes(&loaded.scene));
     lines.extend(info.cameras.iter().map(|camera| format!("camera {}", camera.path)));
-    lines.extend(loaded.scene.lights.iter().map(|light| format!("light {}: {}", light.origin.name, describe(light))));
+    lines.extend(loaded.scene.lights.iter().map(|light| format!("light {}: {}", light.origin.name, describe(light, Words::english()))));
     lines.extend(emissive(&loaded.scene));
     lines.extend(diagnostics.iter().map(|d| format!("{}: {d}", if d.severity == gonio::Severity::Warning { "warning" } else { "note" })));
     lines

@@ -41,6 +41,7 @@ mod photometry;
 mod products;
 mod progress;
 mod radiance;
+mod rating_words;
 mod reading;
 mod relight;
 mod render;
@@ -58,6 +59,7 @@ mod view;
 mod view_out;
 mod volume;
 mod wavelengths;
+mod words;
 
 pub use farm::farm_scene;
 pub use road::road_figures;

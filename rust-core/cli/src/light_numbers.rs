@@ -1,6 +1,9 @@
 //! Lights as numbers, for machines.
 
-use super::light_words::{describe, extents, strength};
+use super::{
+    light_words::{describe, extents, strength},
+    words::Words,
+};
 use gonio::{
     colour::luminance_of_pixel,
     compile::luminous_fluxes,
@@ -37,7 +40,7 @@ fn numbers(light: &Light, flux: Option<f64>) -> Value {
     let position = light.transform.columns[3];
     json!({
         "path": &*light.origin.name,
-        "what": describe(light),
+        "what": describe(light, Words::english()),
         "shape": name_of(light.shape),
         "size_m": has_extent(light.shape).then(|| extents(light)),
         "position_m": (!light.shape.is_at_infinity()).then_some(position),

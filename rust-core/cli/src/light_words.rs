@@ -1,35 +1,43 @@
 //! Lights in words.
 
+use crate::words::Words;
 use gonio::colour::luminance_of_pixel;
 use gonio::scene::{Light, LightQuantity, LightShape, Opening, OpeningShape};
-use gonio_formats::short_number;
+use gonio_page::fill;
 use std::f64::consts::PI;
 
+/// The unit of light from afar.
+const FACING: &str = "lx on a facing surface";
+
 /// A light in words, with its lengths in metres in the world and its strength in units of light, rounded.
-pub(super) fn describe(light: &Light) -> String {
-    let extents = extents(light);
-    let [x, y, z] = extents.map(short_number);
+pub(super) fn describe(light: &Light, words: &Words) -> String {
+    let (numbers, say) = (words.numbers, &words.lights);
+    let [x, y, z] = extents(light).map(|length| numbers.short(length));
+    let sized = |template: &str| fill(template, &[("x", &x), ("y", &y), ("z", &z)]);
     let shape = match light.shape {
-        LightShape::Rectangle { .. } => format!("rectangle {x} × {y} m"),
-        LightShape::Ellipse { .. } => format!("ellipse {x} × {y} m"),
-        LightShape::Disk { .. } => format!("disk {x} m across"),
-        LightShape::Sphere { .. } => format!("sphere {x} m across"),
-        LightShape::FacingDisk { .. } => format!("facing disk {x} m across"),
-        LightShape::Cylinder { .. } => format!("cylinder {x} m long, {y} m across"),
-        LightShape::Point => "point".to_owned(),
-        LightShape::Opening(Opening { shape: OpeningShape::Point, .. }) => "luminaire without extent".to_owned(),
-        LightShape::Opening(Opening { shape, .. }) => format!("luminaire's opening, {} {x} × {y} × {z} m", name_of(shape)),
-        LightShape::Distant { angle_deg } => format!("distant, {} degrees", short_number(angle_deg)),
-        LightShape::Dome { .. } => "dome".to_owned(),
-    };
-    let textured = if light.texture.is_some() { ", textured" } else { "" };
-    let strength = match (light.quantity, strength(light)) {
-        (Some(LightQuantity::LampLumens(flux)), _) => format!("lamps of {} lm", short_number(flux)),
-        (Some(LightQuantity::Lux { illuminance, distance }), _) => {
-            format!("{} lx at {} m", short_number(illuminance), short_number(distance))
+        LightShape::Rectangle { .. } => sized(&say.rectangle),
+        LightShape::Ellipse { .. } => sized(&say.ellipse),
+        LightShape::Disk { .. } => sized(&say.disk),
+        LightShape::Sphere { .. } => sized(&say.sphere),
+        LightShape::FacingDisk { .. } => sized(&say.facing_disk),
+        LightShape::Cylinder { .. } => sized(&say.cylinder),
+        LightShape::Point => say.point.clone(),
+        LightShape::Opening(Opening { shape: OpeningShape::Point, .. }) => say.luminaire.clone(),
+        LightShape::Opening(Opening { shape, .. }) => {
+            fill(&say.opening, &[("shape", words.file.name(name_of(shape))), ("x", &x), ("y", &y), ("z", &z)])
         }
-        (_, None) => "as measured".to_owned(),
-        (_, Some((strength, unit))) => format!("{} {unit}", short_number(strength)),
+        LightShape::Distant { angle_deg } => fill(&say.distant, &[("angle", &numbers.short(angle_deg))]),
+        LightShape::Dome { .. } => say.dome.clone(),
+    };
+    let textured = if light.texture.is_some() { say.textured.as_str() } else { "" };
+    let strength = match (light.quantity, strength(light)) {
+        (Some(LightQuantity::LampLumens(flux)), _) => fill(&say.lamps, &[("flux", &numbers.short(flux))]),
+        (Some(LightQuantity::Lux { illuminance, distance }), _) => {
+            fill(&say.lux_at, &[("illuminance", &numbers.short(illuminance)), ("distance", &numbers.short(distance))])
+        }
+        (_, None) => say.measured.clone(),
+        (_, Some((strength, FACING))) => format!("{} {}", numbers.short(strength), say.facing),
+        (_, Some((strength, unit))) => format!("{} {unit}", numbers.short(strength)),
     };
     format!("{shape}, {strength}{textured}")
 }
@@ -51,9 +59,9 @@ pub(super) fn strength(light: &Light) -> Option<(f64, &'static str)> {
 fn emitted(light: &Light, extents: [f64; 3]) -> (f64, &'static str) {
     let strength = f64::from(luminance_of_pixel(light.emission.radiance));
     let unit = match (light.emission.normalized, light.shape) {
-        (true, LightShape::Distant { .. }) => "lx on a facing surface",
+        (true, LightShape::Distant { .. }) => FACING,
         // Parallel light has no luminance.
-        (false, LightShape::Distant { angle_deg }) if angle_deg <= 0.0 => "lx on a facing surface",
+        (false, LightShape::Distant { angle_deg }) if angle_deg <= 0.0 => FACING,
         (_, LightShape::Point | LightShape::Opening(_)) => "cd",
         _ => "cd/m²",
     };
@@ -105,7 +113,7 @@ mod tests {
     use gonio::scene::{Emission, Origin, Transform};
 
     fn light(shape: LightShape, scale: f64, emission: Emission) -> String {
-        describe(&Light { emission, ..Light::new(Origin::new("light"), shape, Transform::scale(scale)) })
+        describe(&Light { emission, ..Light::new(Origin::new("light"), shape, Transform::scale(scale)) }, Words::english())
     }
 
     #[test]

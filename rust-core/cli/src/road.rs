@@ -5,7 +5,8 @@ use super::{
     drawing,
     file::{check_ending, check_targets, ending, put},
     messages::print,
-    report::{Head, Page},
+    report::{Head, Page, as_file},
+    words::Words,
 };
 use gonio::{Error, Result};
 use gonio_road::{Best, Results, Road, RoadError, Row, sheet, text};
@@ -16,7 +17,7 @@ use std::{
 };
 
 /// Endings of a sheet's file.
-const ENDINGS: &[&str] = &["svg", "png", "html", "htm"];
+const ENDINGS: &[&str] = &["svg", "png", "html", "htm", "pdf"];
 
 /// Reads the road, calculates it, and writes what was asked for.
 pub(super) fn road(options: &RoadOptions, interrupted: &AtomicBool) -> Result<i32> {
@@ -26,7 +27,7 @@ pub(super) fn road(options: &RoadOptions, interrupted: &AtomicBool) -> Result<i3
     }
     let (road, results, best) = calculated(&options.file, &|| interrupted.load(Ordering::Relaxed))?;
     if let Some(output) = &options.output {
-        put(output, &drawn(options, output, &road, &results)?)?;
+        put(output, &drawn(options, output, (&road, &results), interrupted)?)?;
     }
     if options.json {
         print(&as_json(&options.file, &results, best.as_ref()).to_string());
@@ -79,24 +80,24 @@ fn as_json(file: &Path, results: &Results, best: Option<&Best>) -> Value {
 }
 
 /// The bytes of the sheet's file.
-fn drawn(options: &RoadOptions, output: &Path, road: &Road, results: &Results) -> Result<Vec<u8>> {
+fn drawn(options: &RoadOptions, output: &Path, (road, results): (&Road, &Results), interrupted: &AtomicBool) -> Result<Vec<u8>> {
     let name = options.file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let title = options.title.clone().unwrap_or(name);
     match ending(output).as_str() {
-        "html" | "htm" => Ok(page(options, title, road, results).into_bytes()),
+        "html" | "htm" | "pdf" => as_file(page(options, title, road, results), output, interrupted),
         _ => drawing::encoded(sheet::sheet(road, results, &title), output),
     }
 }
 
 /// The sheet as a page with tables.
 fn page(options: &RoadOptions, title: String, road: &Road, results: &Results) -> String {
-    let facts = vec![
+    let facts = [
         ("Road", format!("{} m wide, {} lanes", road.carriageway_width, road.lanes)),
         ("Surface", results.surface.name.clone()),
         ("Model", options.file.file_name().unwrap_or_default().to_string_lossy().into_owned()),
         ("Calculated by", format!("gonio {}, conventions of {}", env!("CARGO_PKG_VERSION"), results.standard)),
     ];
-    let mut page = Page::new(&Head { title, facts });
+    let mut page = Page::new(&Head { title, facts: facts.map(|(name, fact)| (name.to_owned(), fact)).into() }, Words::english());
     page.section("Results");
     page.list(&text::summary(results));
     page.table(&text::OBSERVER_COLUMNS, &text::observer_rows(results), &[]);

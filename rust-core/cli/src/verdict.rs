@@ -2,17 +2,15 @@
 
 use super::{
     arguments::VerdictOptions,
-    file::{check_ending, check_targets, ending, print_path, put, read},
+    file::{check_ending, check_targets, print_path, put, read},
     messages::print,
-    report::today,
+    report::{as_file, today},
 };
 use gonio::{Error, Result};
-use gonio_verdict::{Language, Measured, PdfError, Requirements, Sheet, Verdict, VerdictError, json, lines, page, pdf};
+use gonio_page::Language;
+use gonio_verdict::{Measured, Requirements, Sheet, Verdict, VerdictError, json, lines, page};
 use pyo3::Python;
-use std::{
-    path::{Path, PathBuf},
-    sync::atomic::{AtomicBool, Ordering},
-};
+use std::{path::PathBuf, sync::atomic::AtomicBool};
 
 /// Endings of a sheet's file.
 const ENDINGS: &[&str] = &["html", "htm", "pdf"];
@@ -37,7 +35,8 @@ fn run(options: &VerdictOptions, date: &str, interrupted: &AtomicBool) -> Result
     let files = options.measured.iter().map(file).collect::<Result<Vec<_>>>()?;
     let sheet = judged(options, &own, &files).map_err(|VerdictError { path, error }| Error::in_file(&path, &error))?;
     if let Some(output) = &options.output {
-        put(output, &drawn(options, output, &sheet, date, interrupted)?)?;
+        let html = page(&sheet, Language::of_code(&options.language), date);
+        put(output, &as_file(html, output, interrupted)?)?;
     }
     if options.json {
         print(&json(&sheet).to_string());
@@ -55,18 +54,4 @@ fn run(options: &VerdictOptions, date: &str, interrupted: &AtomicBool) -> Result
 fn judged(options: &VerdictOptions, own: &[u8], files: &[(PathBuf, Vec<u8>)]) -> std::result::Result<Sheet, VerdictError> {
     let requirements = Requirements::read(own, &options.requirements)?;
     Sheet::new(requirements, own, Measured::read(files)?)
-}
-
-/// The bytes of the sheet's file.
-fn drawn(options: &VerdictOptions, output: &Path, sheet: &Sheet, date: &str, interrupted: &AtomicBool) -> Result<Vec<u8>> {
-    let language = Language::CODES.iter().find(|(code, _)| *code == options.language).map_or(Language::English, |(_, language)| *language);
-    let html = page(sheet, language, date);
-    if ending(output) != "pdf" {
-        return Ok(html.into_bytes());
-    }
-    let stopped = || interrupted.load(Ordering::Relaxed);
-    pdf(&html, &stopped).map_err(|error| match error {
-        PdfError::Stopped => Error::Cancelled,
-        error => Error::setting("output", error.to_string()),
-    })
 }

@@ -3,7 +3,8 @@
 //! The JSON has `title`, `size`, `exposure`, `average`, `still` (a JPEG file), `tints` (colours from 1000 K in steps of 50 K), `groups` with `name`,
 //! `watts` and `light` (a file of 32-bit floats, three a pixel), `scenes` with `name` and `settings` (`group`, `level`, `kelvin`), `language`, `limit`.
 
-use gonio_share::{Group, Language, Picture, Scene, Setting, Tints, page};
+use gonio_page::Language;
+use gonio_share::{Group, Picture, Scene, Setting, Tints, page};
 use serde_json::Value;
 use std::{error::Error, fs};
 
@@ -43,7 +44,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         tints: Tints { first: 1000, step: 50, colours: items(&given["tints"]).iter().map(colour).collect() },
         scenes: items(&given["scenes"]).iter().map(scene).collect(),
         hours: 2500.0,
-        language: Language::CODES.iter().find(|(known, _)| *known == code).map_or(Language::English, |(_, language)| *language),
+        language: Language::of_code(code),
         limit: given["limit"].as_u64().unwrap_or(15_000_000) as usize,
     };
     let still = fs::read(given["still"].as_str().unwrap_or_default())?;

@@ -16,4 +16,3 @@ mod words;
 pub use fit::reduced;
 pub use page::{Page, page};
 pub use picture::{Group, Picture, Problem, Scene, Setting, Tints};
-pub use words::Language;

@@ -5,7 +5,9 @@ use super::{
     fit::{Fitted, fitted, reduced},
     pack::text,
     picture::{Picture, Problem},
+    words::words,
 };
+use gonio_page::escaped;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
@@ -82,7 +84,7 @@ fn still_of(picture: &Picture, still: impl FnOnce(&[f32], [usize; 2]) -> Result<
 
 /// What fills the template, but for the light.
 fn parts(picture: &Picture, still: &str) -> BTreeMap<String, String> {
-    let words = picture.language.words();
+    let words = words(picture.language);
     let rows = picture.groups.iter().map(|group| {
         let watts = group.watts.map_or_else(|| "–".to_owned(), |watts| format!("{watts} W"));
         format!("<tr><th scope=\"row\">{}</th><td>100 %</td><td>–</td><td>{watts}</td></tr>\n", escaped(&group.name))
@@ -119,7 +121,7 @@ fn data(picture: &Picture, fitted: &Fitted) -> String {
         "tints": { "first": tints.first, "step": tints.step, "colours": tints.colours },
         "scenes": picture.scenes.iter().map(scene).collect::<Vec<_>>(),
         "hours": picture.hours,
-        "words": picture.language.words(),
+        "words": words(picture.language),
     });
     // No text within can end the element.
     data.to_string().replace('<', "\\u003c")
@@ -143,22 +145,5 @@ fn expanded(template: &str, parts: &BTreeMap<String, String>) -> String {
         rest = after;
     }
     out.push_str(rest);
-    out
-}
-
-/// A text as HTML holds it, in attributes too; control characters become blanks.
-fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for letter in text.chars() {
-        match letter {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            '\'' => out.push_str("&#39;"),
-            letter if letter.is_control() => out.push(' '),
-            letter => out.push(letter),
-        }
-    }
     out
 }

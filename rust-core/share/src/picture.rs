@@ -1,6 +1,6 @@
 //! What a page is made of.
 
-use super::Language;
+use gonio_page::Language;
 
 /// What keeps a page from being made.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

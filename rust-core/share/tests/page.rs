@@ -1,6 +1,7 @@
 //! Pages of made-up pictures: what stands in them, and what cannot be made one of.
 
-use gonio_share::{Group, Language, Page, Picture, Problem, Scene, Setting, Tints, page};
+use gonio_page::Language;
+use gonio_share::{Group, Page, Picture, Problem, Scene, Setting, Tints, page};
 
 fn group(name: &str, light: Vec<f32>) -> Group {
     Group { name: name.into(), light, watts: Some(12.5) }

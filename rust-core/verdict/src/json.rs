@@ -3,8 +3,9 @@
 use crate::{
     bound::Verdict,
     sheet::{Reached, Row, Sheet},
-    words::Language,
+    words::words,
 };
+use gonio_page::Language;
 use serde_json::{Value, json as object};
 
 /// The sheet as JSON; `docs/verdict.md` lists its keys. Notes are in English. What is infinite is `null`.
@@ -20,7 +21,7 @@ pub fn json(sheet: &Sheet) -> Value {
 }
 
 fn row(row: &Row) -> Value {
-    let (words, numbers) = Language::English.words();
+    let (words, numbers) = words(Language::English);
     let wanted = &row.requirement;
     object!({
         "line": wanted.line,

@@ -1,10 +1,7 @@
 //! What a reader should know beside a figure.
 
-use crate::{
-    estimate::Estimate,
-    number::Numbers,
-    words::{Words, fill},
-};
+use crate::{estimate::Estimate, words::Words};
+use gonio_page::{Numbers, fill};
 
 /// A remark on a line of the sheet.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,14 +46,14 @@ const FAR: f64 = 10_000.0;
 impl Note {
     /// In a language's words.
     pub(crate) fn told(&self, words: &Words, numbers: Numbers) -> String {
-        let of_share = |share: f64| numbers.form(&gonio_formats::short_number(100.0 * share));
+        let of_share = |share: f64| numbers.short(100.0 * share);
         let not_found = |template: &str, place: &str, written: &str, nearest: &Option<String>, known: &str| {
             let hint = nearest.as_ref().map_or(String::new(), |nearest| fill(&words.did_you_mean, &[("name", nearest)]));
             fill(template, &[("place", place), ("name", written), ("hint", &hint), ("known", known)])
         };
         match self {
             Self::Maintained { factor, measured, unit } => {
-                let measured = numbers.figure(*measured, f64::NAN, unit);
+                let measured = numbers.figure(measured.value, measured.error, unit);
                 fill(&words.maintained, &[("measured", &measured), ("factor", &numbers.form(&factor.to_string()))])
             }
             Self::LeastIsLow(share) => fill(&words.least_is_low, &[("percent", &of_share(*share))]),

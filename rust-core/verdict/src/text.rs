@@ -3,18 +3,18 @@
 use crate::{
     bound::{Bound, Verdict},
     estimate::Estimate,
-    number::Numbers,
     sheet::{Row, Sheet},
-    words::{Language, Words},
+    words::{Words, words},
 };
 use gonio_formats::tame;
+use gonio_page::{Language, Numbers};
 
 /// The columns of a line.
 const COLUMNS: usize = 5;
 
 /// The sheet as lines of a table, a line for each requirement, with what a reader should know below it.
 pub fn lines(sheet: &Sheet) -> Vec<String> {
-    let (words, numbers) = Language::English.words();
+    let (words, numbers) = words(Language::English);
     let head = [&words.verdict, &words.area, &words.quantity, &words.required, &words.reached].map(|name| name.to_lowercase());
     let rows: Vec<[String; COLUMNS]> = sheet.rows.iter().map(|row| cells(row, &words, numbers)).collect();
     let width = |column: usize| rows.iter().chain([&head]).map(|cells| cells[column].chars().count()).max().unwrap_or(0);
@@ -64,5 +64,5 @@ pub(crate) fn required(row: &Row, numbers: Numbers) -> String {
 /// What was reached; a dash where nothing was measured.
 pub(crate) fn reached(row: &Row, numbers: Numbers) -> String {
     let figure = row.reached.as_ref().map(|reached| Estimate::new(reached.value, reached.standard_error));
-    figure.map_or("–".to_owned(), |figure| numbers.figure(figure, row.requirement.limit, &row.unit))
+    figure.map_or("–".to_owned(), |figure| numbers.beside(figure.value, figure.error, row.requirement.limit, &row.unit))
 }

@@ -1,28 +1,14 @@
 //! What a sheet says, in its reader's language.
 
-use crate::{bound::Verdict, number::Numbers};
+use crate::bound::Verdict;
+use gonio_page::{Language, Numbers, fill, read};
 use serde::Deserialize;
 use std::collections::BTreeMap;
-
-/// A language that sheets are to be had in.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Language {
-    /// English.
-    #[default]
-    English,
-    /// German.
-    German,
-    /// French.
-    French,
-    /// Spanish.
-    Spanish,
-}
 
 /// All words of a language. Names between braces are filled in.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Words {
-    pub(crate) decimal_comma: bool,
     pub(crate) met: String,
     pub(crate) within_error: String,
     pub(crate) not_met: String,
@@ -71,34 +57,23 @@ pub(crate) struct Words {
     pub(crate) did_you_mean: String,
     pub(crate) no_number: String,
     /// Quantities by the names that files have for them; others stand as they are.
+    #[serde(skip)]
     pub(crate) quantities: BTreeMap<String, String>,
 }
 
-impl Language {
-    /// All of them, with the codes that name them (ISO 639-1).
-    pub const CODES: [(&'static str, Self); 4] = [("en", Self::English), ("de", Self::German), ("fr", Self::French), ("es", Self::Spanish)];
+/// The words of a language, and how it writes numbers.
+pub(crate) fn words(language: Language) -> (Words, Numbers) {
+    let words: Words = read(text(language));
+    (Words { quantities: language.quantities(), ..words }, language.numbers())
+}
 
-    /// The language's code.
-    pub fn code(self) -> &'static str {
-        Self::CODES.iter().find(|(_, language)| *language == self).map_or("en", |(code, _)| code)
-    }
-
-    /// Its words, and how it writes numbers.
-    pub(crate) fn words(self) -> (Words, Numbers) {
-        // A test reads all of them.
-        let words: Words = toml::from_str(self.text()).unwrap_or_default();
-        let numbers = Numbers { comma: words.decimal_comma };
-        (words, numbers)
-    }
-
-    /// The file of its words.
-    pub(crate) fn text(self) -> &'static str {
-        match self {
-            Self::English => include_str!("../words/en.toml"),
-            Self::German => include_str!("../words/de.toml"),
-            Self::French => include_str!("../words/fr.toml"),
-            Self::Spanish => include_str!("../words/es.toml"),
-        }
+/// The file of its words.
+pub(crate) fn text(language: Language) -> &'static str {
+    match language {
+        Language::English => include_str!("../words/en.toml"),
+        Language::German => include_str!("../words/de.toml"),
+        Language::French => include_str!("../words/fr.toml"),
+        Language::Spanish => include_str!("../words/es.toml"),
     }
 }
 
@@ -129,20 +104,4 @@ impl Words {
             None => known(quantity),
         }
     }
-}
-
-/// A text with what stands between braces filled in.
-pub(crate) fn fill(template: &str, values: &[(&str, &str)]) -> String {
-    let mut text = String::new();
-    let mut rest = template;
-    while let Some((before, name, after)) = rest.split_once('{').and_then(|(before, tail)| {
-        let (name, after) = tail.split_once('}')?;
-        Some((before, name, after))
-    }) {
-        text.push_str(before);
-        text.push_str(values.iter().find(|(known, _)| *known == name).map_or("", |(_, value)| value));
-        rest = after;
-    }
-    text.push_str(rest);
-    text
 }

@@ -1,7 +1,7 @@
 //! Daylight provision by EN 17037: target and minimum illuminance by the hourly method, and by daylight factors.
 
 use crate::sky::SkyMatrix;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Illuminances that are asked for, lx.
 pub(super) const LEVELS: [f64; 4] = [100.0, 300.0, 500.0, 750.0];
@@ -12,7 +12,7 @@ const MINIMUM_AREA: f64 = 0.95;
 const HOURS: f64 = 0.5;
 
 /// A recommendation of EN 17037.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Level {
     /// Not even the minimum.
@@ -26,7 +26,7 @@ pub enum Level {
 }
 
 /// What one of the two methods finds: shares of the points that have an illuminance in half of the daylight hours.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Method {
     /// Shares of points with 100, 300, 500 and 750 lx.
     pub area_100_300_500_750: [f64; 4],
@@ -35,7 +35,7 @@ pub struct Method {
 }
 
 /// Daylight provision of a grid for vertical and inclined openings.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct En17037 {
     /// By illuminances, hour by hour.
     pub hourly: Method,
@@ -43,6 +43,29 @@ pub struct En17037 {
     pub daylight_factor: Method,
     /// Median of the sky's light on a level surface in the daylight hours, lx.
     pub median_diffuse_lx: f64,
+}
+
+/// Standard errors of the shares that a method finds.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AreaErrors {
+    /// Of [`Method::area_100_300_500_750`].
+    pub area_100_300_500_750: [f64; 4],
+}
+
+/// Standard errors of daylight provision.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct En17037Errors {
+    /// Of [`En17037::hourly`].
+    pub hourly: AreaErrors,
+    /// Of [`En17037::daylight_factor`].
+    pub daylight_factor: AreaErrors,
+}
+
+impl AreaErrors {
+    /// By the error at each of the four illuminances.
+    pub(super) fn new(error: &dyn Fn(usize) -> f64) -> Self {
+        Self { area_100_300_500_750: [0, 1, 2, 3].map(error) }
+    }
 }
 
 impl Method {

@@ -2,12 +2,12 @@
 
 use super::{
     counts::Counts,
-    en17037::{En17037, Half, Method, by_factor, in_hours},
+    en17037::{AreaErrors, En17037, En17037Errors, Half, Method, by_factor, in_hours},
     errors::jackknife,
     point::Point,
 };
 use crate::{electric::Electric, schedule::Schedule, year::Year};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Daylight autonomy that a point needs to count for sDA.
 const AUTONOMY: f64 = 0.5;
@@ -22,7 +22,7 @@ pub(crate) struct Variant {
 }
 
 /// A grid's year. Every point stands for the same area.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Grid {
     /// Spatial daylight autonomy (LM-83): the share of points with 300 lx in at least half of the used hours.
     pub sda_300_50: f64,
@@ -32,6 +32,10 @@ pub struct Grid {
     pub mean_lx: f64,
     /// Mean of the points' shares of hours from 100 to 3000 lx.
     pub udi_100_3000: f64,
+    /// Mean of the points' daylight autonomies, 300 lx.
+    pub da_300: f64,
+    /// Mean of the points' continuous daylight autonomies.
+    pub cda_300: f64,
     /// Median of the daylight factors, per cent.
     pub median_daylight_factor: f64,
     /// Daylight provision.
@@ -42,7 +46,7 @@ pub struct Grid {
     /// Used hours of the year.
     pub used_hours: f64,
     /// By group of windows, used hours with its blinds closed; empty where there are no blinds.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub closed_hours: Vec<f64>,
     /// The points in the order of the coefficients' rows.
     pub points: Vec<Point>,
@@ -51,7 +55,7 @@ pub struct Grid {
 }
 
 /// Standard errors of a grid's figures.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GridErrors {
     /// Of [`Grid::sda_300_50`].
     pub sda_300_50: f64,
@@ -61,8 +65,14 @@ pub struct GridErrors {
     pub mean_lx: f64,
     /// Of [`Grid::udi_100_3000`].
     pub udi_100_3000: f64,
+    /// Of [`Grid::da_300`].
+    pub da_300: f64,
+    /// Of [`Grid::cda_300`].
+    pub cda_300: f64,
     /// Of [`Grid::median_daylight_factor`].
     pub median_daylight_factor: f64,
+    /// Of the shares of points in [`Grid::en17037`].
+    pub en17037: En17037Errors,
     /// Of [`Grid::electric`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub electric: Option<Electric>,
@@ -94,6 +104,8 @@ impl Grid {
             ase_1000_250: has_direct.then(|| share(&|point| point.hours_direct_1000.is_some_and(|hours| hours > SUNNY_HOURS))),
             mean_lx: mean(&|point| point.mean_lx),
             udi_100_3000: mean(&|point| point.udi_100_3000),
+            da_300: mean(&|point| point.da_300),
+            cda_300: mean(&|point| point.cda_300),
             median_daylight_factor: median(points.iter().map(|point| point.daylight_factor).collect()),
             en17037: En17037 {
                 hourly: Method::new(points.iter().map(|point| in_hours(point.daylight_hours_100_300_500_750))),
@@ -120,7 +132,13 @@ impl Grid {
             ase_1000_250: self.ase_1000_250.map(|_| error(&|grid| grid.ase_1000_250.unwrap_or(0.0))),
             mean_lx: error(&|grid| grid.mean_lx),
             udi_100_3000: error(&|grid| grid.udi_100_3000),
+            da_300: error(&|grid| grid.da_300),
+            cda_300: error(&|grid| grid.cda_300),
             median_daylight_factor: error(&|grid| grid.median_daylight_factor),
+            en17037: En17037Errors {
+                hourly: AreaErrors::new(&|level| error(&|grid| grid.en17037.hourly.area_100_300_500_750[level])),
+                daylight_factor: AreaErrors::new(&|level| error(&|grid| grid.en17037.daylight_factor.area_100_300_500_750[level])),
+            },
             electric: self
                 .electric
                 .map(|_| Electric::errors(&without.iter().filter_map(|grid| grid.electric).collect::<Vec<_>>(), jackknife)),

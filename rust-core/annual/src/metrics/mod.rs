@@ -8,7 +8,7 @@ mod point;
 
 pub(crate) use counts::Counts;
 pub(crate) use en17037::Half;
-pub use en17037::{En17037, Level, Method};
+pub use en17037::{AreaErrors, En17037, En17037Errors, Level, Method};
 pub(crate) use errors::jackknife;
 pub(crate) use grid::Variant;
 pub use grid::{Grid, GridErrors};

@@ -1,13 +1,13 @@
 //! The figures of a point.
 
 use super::counts::Count;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Numbers of a point.
 pub(super) const NUMBERS: usize = 14;
 
 /// A point's year. Shares are of the used hours, 0 to 1.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Point {
     /// Mean illuminance of the used hours, lx.
     pub mean_lx: f64,

@@ -2,7 +2,9 @@
 
 use super::{
     inputs::{weather, year},
-    pictures, settings, tell_doubts,
+    pictures,
+    plots::{self, Times},
+    settings, tell_doubts,
 };
 use crate::{
     arguments::AnnualGlareOptions,
@@ -13,6 +15,7 @@ use crate::{
     reading::triple,
     render::stage_options,
     stage::Stage,
+    words::Words,
 };
 use gonio::{
     Diagnostic, Error, Result,
@@ -175,7 +178,7 @@ fn line(eye: &Eye, found: &EyeGlare, error: Option<&EyeGlare>) -> String {
 
 /// The files: series, table, and the year of the first eyes as pictures.
 fn paths(folder: &Path, eyes: usize) -> Vec<PathBuf> {
-    let pictures = (1..=eyes.min(MOST_DRAWN)).map(|number| format!("glare_{number}.png"));
+    let pictures = (1..=eyes.min(MOST_DRAWN)).flat_map(|number| ["png", "svg"].map(|ending| format!("glare_{number}.{ending}")));
     ["glare.npy", "glare.csv"].map(str::to_owned).into_iter().chain(pictures).map(|name| folder.join(name)).collect()
 }
 
@@ -188,8 +191,10 @@ fn written(
     let paths = paths(folder, eyes.len());
     put(&paths[0], &to_npy(eyes.len(), year.steps.len(), glare.all_values()))?;
     put(&paths[1], table(eyes, figures).as_bytes())?;
-    for (eye, path) in paths[2..].iter().enumerate() {
-        pictures::glare_carpet(path, year, glare.values(eye))?;
+    let times = Times::new(year);
+    for (eye, files) in paths[2..].chunks_exact(2).enumerate() {
+        pictures::glare_carpet(&files[0], year, glare.values(eye))?;
+        put(&files[1], plots::glare(&eyes[eye], &figures[eye], (&times, glare.values(eye)), Words::english()).as_bytes())?;
     }
     Ok(paths)
 }

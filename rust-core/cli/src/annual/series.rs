@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
 /// The files of a grid: all light, direct light, the points.
-pub(super) fn paths(folder: &Path, name: &str) -> [PathBuf; 3] {
+pub(crate) fn paths(folder: &Path, name: &str) -> [PathBuf; 3] {
     ["_total.npy", "_direct.npy", "_points.csv"].map(|ending| folder.join(format!("{name}{ending}")))
 }
 

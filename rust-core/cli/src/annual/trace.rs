@@ -1,11 +1,13 @@
 //! `gonio annual`: coefficients traced in a stage, and the year that a weather file makes of them.
 
 use super::{
-    as_json, calculate,
+    as_json, calculate, draw,
     facades::facades,
     farm,
     inputs::{self, Inputs, Named},
-    pictures, series, settings, tell_doubts, text, whole,
+    kept_path, pictures,
+    plots::{self, Layout, filled},
+    series, settings, tell_doubts, tell_whole, text, whole,
 };
 use crate::{
     arguments::{AnnualOptions, RoundArguments},
@@ -78,8 +80,10 @@ fn calculated(task: &Task<'_>, checkpoints: &Checkpoints, interrupted: &'static 
     let (grids, left_out) = AnnualGrid::all(&scenes[0])?;
     tell(&left_out);
     if let Some(folder) = &options.year.output {
-        let files = |grid: &AnnualGrid| series::paths(folder, &grid.name).into_iter().chain(pictures::paths(folder, &grid.name));
-        check_targets(grids.iter().flat_map(files).collect::<Vec<_>>().iter())?;
+        let files = |grid: &AnnualGrid| {
+            series::paths(folder, &grid.name).into_iter().chain(pictures::paths(folder, &grid.name)).chain(plots::paths(folder, &grid.name))
+        };
+        check_targets(grids.iter().flat_map(files).chain([kept_path(folder)]).collect::<Vec<_>>().iter())?;
     }
     let traced = AnnualTask { year, frame, factor: options.factor, facades, closed: &scenes[1..] };
     let follow = |watch: &mut Watch<'_>| trace(&scenes[0], &grids, (&traced, checkpoints), Execution::detect(), watch);
@@ -131,6 +135,7 @@ fn finish(
     let mut found = Vec::new();
     for (named, traced) in inputs.grids.iter().zip(grids) {
         let (grid, series) = calculate(&options.year, inputs, named, &settings, interrupted)?;
+        draw(&options.year, &inputs.year, (&named.name, &grid, Layout::of(traced).as_ref()), series.as_ref())?;
         if let (Some(folder), Some(series)) = (&options.year.output, series) {
             let written = pictures::draw(folder, &named.name, (&grid, traced), &inputs.year, &series.means())?;
             written.iter().filter(|_| !options.year.json).for_each(|path| print_path(path));
@@ -145,11 +150,9 @@ fn finish(
         }
         found.push(json);
     }
-    if options.year.json {
-        let mut whole = whole(&options.year, &inputs.year, found);
-        whole["diagnostics"] = diagnostics_json(told);
-        print(&whole.to_string());
-    }
+    let mut whole = whole(&options.year, &inputs.year, found);
+    whole["diagnostics"] = diagnostics_json(told);
+    tell_whole(&options.year, &whole)?;
     Ok(0)
 }
 
@@ -160,5 +163,8 @@ fn placed(mut grid: Value, traced: &AnnualGrid) -> Value {
     }
     grid["columns"] = json!(traced.size[0]);
     grid["rows"] = json!(traced.size[1]);
+    if traced.is_there.contains(&false) {
+        grid["cells"] = json!(filled(&traced.is_there));
+    }
     grid
 }

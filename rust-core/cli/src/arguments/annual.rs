@@ -69,7 +69,7 @@ pub(crate) struct YearArguments {
     /// For machines.
     #[arg(long)]
     pub(crate) json: bool,
-    /// Write each grid's series to a folder: points × hours in lx as .npy, all light and direct, and a CSV table of the points.
+    /// Write to a folder: each grid's series, points × hours in lx as .npy, all light and direct, a CSV table of the points, plots as SVG, and year.json with what --json prints, which 'gonio report --annual' reads.
     #[arg(long, short = 'o', value_name = "FOLDER")]
     pub(crate) output: Option<PathBuf>,
 }

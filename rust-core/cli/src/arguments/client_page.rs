@@ -2,7 +2,7 @@
 
 use super::number::{count, finite, positive};
 use clap::{Args, builder::PossibleValuesParser};
-use gonio_share::Language;
+use gonio_page::Language;
 use std::path::PathBuf;
 
 /// The end of `gonio share --help`.

@@ -7,7 +7,8 @@ use super::number::{count, finite};
 use super::stage::StageArguments;
 use super::texture::TextureArguments;
 use super::work::WorkArguments;
-use clap::Args;
+use clap::{Args, builder::PossibleValuesParser};
+use gonio_page::Language;
 use std::path::PathBuf;
 
 /// The end of `gonio report --help`.
@@ -16,6 +17,8 @@ pub(super) const REPORT_EXAMPLES: &str = "Examples:
   gonio report office.usda -o office.html --project 'Town hall' --place Vienna
   gonio report office.usda -o office.html --grid /Office/Floor --height 0.75 --margin 0.5 --max-illuminance 1000
   gonio report office.usda -o office.html --grid /Office/Floor --height 0.75 --eyes sitting
+  gonio report office.usda -o buero.pdf --language de
+  gonio annual office.usda --weather mannheim.epw --grid /Office/Floor -o year && gonio report office.usda -o office.html --annual year
   gonio report office.usda -o schedule.html --no-pictures          luminaires and the stage's own grids alone
 
 What stands in it:
@@ -27,6 +30,7 @@ What stands in it:
   grids, meters   average, least and greatest value, U0 and Ud with standard errors, and pictures with the values at their points
   colour          where lamps have spectra or a grid or meter measures a colour: CCT, Duv, Ra, R9, Rf, Rg, melanopic DER and EDI with
                   standard errors, the spectral irradiance beside TM-30's colour vector graphic, plans of melanopic EDI
+  year            of --annual: sDA, ASE, UDI, DA, cDA, daylight factor and EN 17037 with standard errors, on the plan, over days and hours, by point
   files           the polar diagram, the figures and the UGR table of each IES or EULUMDAT file
   notes           what the stage asks for and was not done";
 
@@ -34,9 +38,12 @@ What stands in it:
 pub(crate) struct ReportOptions {
     #[command(flatten)]
     pub(crate) stage: StageArguments,
-    /// The page to write; it takes its name when it is complete.
-    #[arg(long, short = 'o', value_name = "FILE.html")]
+    /// The page to write, or a PDF by Chromium or Chrome where the machine has one; it takes its name when it is complete.
+    #[arg(long, short = 'o', value_name = "FILE.html|FILE.pdf")]
     pub(crate) output: PathBuf,
+    /// The page's language; what the stage asks for and was not done is told in English.
+    #[arg(long, default_value = "en", value_parser = PossibleValuesParser::new(Language::CODES.map(|(code, _)| code)))]
+    pub(crate) language: String,
     /// The page's title; without it the stage's file name without its ending.
     #[arg(long, value_name = "TEXT")]
     pub(crate) title: Option<String>,
@@ -106,6 +113,9 @@ pub(crate) struct ReportOptions {
     /// Where these eyes look, in place of all around; may be given several times.
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, requires = "eyes")]
     pub(crate) facing: Vec<String>,
+    /// Add a year of daylight: the folder that 'gonio annual -o' wrote. May be given several times, such as without and with blinds.
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) annual: Vec<PathBuf>,
     #[command(flatten)]
     pub(crate) daylight: DaylightArguments,
 }

@@ -19,7 +19,7 @@ pub(crate) struct RoadOptions {
     #[arg(long)]
     pub(crate) json: bool,
     /// Write a sheet with plan, lines of equal illuminance and luminance, and all results.
-    #[arg(long, short = 'o', value_name = "FILE.svg|FILE.png|FILE.html")]
+    #[arg(long, short = 'o', value_name = "FILE.svg|FILE.png|FILE.html|FILE.pdf")]
     pub(crate) output: Option<PathBuf>,
     /// The sheet's title; without it the road's file name without its ending.
     #[arg(long, value_name = "TEXT")]

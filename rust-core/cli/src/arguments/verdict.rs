@@ -1,7 +1,7 @@
 //! What `gonio verdict` takes.
 
 use clap::{Args, builder::PossibleValuesParser};
-use gonio_verdict::Language;
+use gonio_page::Language;
 use std::path::PathBuf;
 
 /// The end of `gonio verdict --help`.

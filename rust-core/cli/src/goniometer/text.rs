@@ -1,6 +1,6 @@
 //! What was measured, for readers.
 
-use crate::{arguments::GoniometerOptions, photometry, progress::clock};
+use crate::{arguments::GoniometerOptions, photometry, progress::clock, words::Words};
 use gonio::goniometer::{Fluxes, Opening, Reading, ScreenReading, Value, colour};
 use gonio_formats::photometry::measured::{MeasuredSpread, Reduced};
 
@@ -59,7 +59,7 @@ fn figures(reading: &Reading, reduced: &Reduced) -> Vec<String> {
         format!("beam angle (50 %): {}", spreads(figures.beam)),
         format!("field angle (10 %): {}", spreads(figures.field)),
     ];
-    lines.extend(figures.aside.as_ref().map(photometry::aside));
+    lines.extend(figures.aside.as_ref().map(|aside| photometry::aside(aside, Words::english())));
     lines.extend(opening(&reading.opening));
     lines.push(format!("body: {bx:.4} × {by:.4} × {bz:.4} m"));
     lines
@@ -85,7 +85,7 @@ fn opening(opening: &Opening) -> Vec<String> {
     if opening.parts.len() > 1 {
         lines.push(format!("opening's parts: {}, apart from each other; files have one of the same luminous area", opening.parts.len()));
     }
-    lines.push(format!("opening in files: {}", photometry::opening(&opening.shape)));
+    lines.push(format!("opening in files: {}", photometry::opening(&opening.shape, Words::english())));
     lines
 }
 

@@ -16,6 +16,7 @@ use super::{
     drawing,
     file::{self, check_ending, check_targets, ending, put},
     messages::print,
+    words::Words,
 };
 use gonio::{Error, Result};
 use gonio_formats::FormatError;
@@ -57,7 +58,7 @@ pub(super) fn photometry(options: &PhotometryOptions) -> Result<i32> {
     } else if let Some(table) = table {
         ugr::as_text(&goniogram, &table).iter().for_each(|line| print(line));
     } else {
-        as_text(&goniogram, &figures, options.front).iter().for_each(|line| print(line));
+        as_text(&goniogram, &figures, options.front, Words::english()).iter().for_each(|line| print(line));
     }
     Ok(0)
 }

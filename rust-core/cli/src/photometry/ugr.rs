@@ -1,23 +1,24 @@
 //! UGR tables for readers, pages and machines.
 
+use crate::words::{UgrWords, Words};
 use gonio_formats::{
     photometry::{Goniogram, REFLECTANCES, ROOMS, UgrTable},
     tame,
 };
+use gonio_page::fill;
 use serde_json::{Value, json};
 
 /// What a table holds beside its numbers.
-pub(crate) fn caption(table: &UgrTable) -> String {
-    let shr = table.spacing;
-    format!("UGR (CIE 117, CIE 190), luminaires {shr} times their height H above the eye apart, with the file's flux")
+pub(crate) fn caption(table: &UgrTable, words: &Words) -> String {
+    fill(&words.ugr.caption, &[("spacing", &words.numbers.form(&table.spacing.to_string()))])
 }
 
 /// Names of the columns.
-pub(crate) fn names() -> Vec<String> {
+pub(crate) fn names(say: &UgrWords) -> Vec<String> {
     let of = |[ceiling, walls, plane]: [f64; 3]| [ceiling, walls, plane].map(|x| format!("{:.0}", 100.0 * x)).join("/");
-    let directions = ["crosswise", "endwise"].into_iter();
-    let columns = directions.flat_map(|direction| REFLECTANCES.map(|reflectances| format!("{direction} {}", of(reflectances))));
-    ["room".to_owned()].into_iter().chain(columns).collect()
+    let directions = [&say.crosswise, &say.endwise].into_iter();
+    let columns = directions.flat_map(|direction| REFLECTANCES.map(|reflectances| fill(direction, &[("reflectances", &of(reflectances))])));
+    [say.room.clone()].into_iter().chain(columns).collect()
 }
 
 /// Rows of the room and its ten values.
@@ -33,7 +34,7 @@ pub(super) fn as_text(goniogram: &Goniogram, table: &UgrTable) -> Vec<String> {
     let name = goniogram.text("LUMINAIRE").or_else(|| goniogram.text("LUMCAT")).unwrap_or("luminaire");
     let name = tame(name);
     let percents = |k: usize| REFLECTANCES.iter().chain(&REFLECTANCES).map(|all| format!("{:>6.0}", 100.0 * all[k])).collect::<String>();
-    let mut lines = vec![format!("{name}: {}", caption(table))];
+    let mut lines = vec![format!("{name}: {}", caption(table, Words::english()))];
     lines.extend(["ceiling, %", "walls, %", "plane, %"].iter().enumerate().map(|(k, name)| format!("{name:<11}{}", percents(k))));
     lines.push(format!("{:<11}{:>30}{:>30}", "room", "crosswise (C0–C180)", "endwise (C90–C270)"));
     lines.extend(

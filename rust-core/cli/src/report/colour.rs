@@ -1,19 +1,30 @@
 //! Colour of the light at grids and meters: figures, spectra beside TM-30's colour vector graphics, melanopic light on plans.
 
-use super::{grids::plan, html::Page, numbers::with_error};
-use crate::{arguments::ReportOptions, measure::evaluated, progress::Reporter};
+use super::{
+    grids::{figure, plan},
+    html::Page,
+};
+use crate::{
+    arguments::ReportOptions,
+    measure::evaluated,
+    progress::Reporter,
+    words::{ColourWords, Words},
+};
 use gonio::{
     Error, Result,
     compile::CompiledScene,
     measure::{ColourReading, GridPoints, GridReading, Measurements, Reading},
-    scene::{Grid, Light, Material, Measurand, Meter, Origin, Scene},
+    scene::{Grid, Light, Material, Measurand, Meter, Scene},
 };
+use gonio_page::fill;
 use gonio_spectrum::Figures;
 use std::sync::{Arc, atomic::AtomicBool};
 
 /// A place whose light has a colour.
 struct Place {
-    name: String,
+    /// The meter, or the grid whose middle it is.
+    of: String,
+    is_middle: bool,
     /// Metres.
     at: [f64; 3],
     colour: Arc<ColourReading>,
@@ -39,12 +50,18 @@ impl Colours {
     ) -> Result<Self> {
         let mut colours = Self::default();
         let meters = found.meters.iter().filter_map(|meter| Some((&meter.meter, meter.colour.clone()?)));
-        colours.places.extend(meters.map(|(meter, colour)| Place { name: meter.origin.to_string(), at: meter.position, colour }));
+        colours.places.extend(meters.map(|(meter, colour)| Place {
+            of: meter.origin.to_string(),
+            is_middle: false,
+            at: meter.position,
+            colour,
+        }));
         for grid in found.grids.iter().filter(|grid| !grid.colours.is_empty()) {
             colours.places.extend(middle_of(grid));
             colours.plans.extend(grid.melanopic());
         }
-        let others = if has_spectra(scene) { others(scene)? } else { Vec::new() };
+        let (others, are_middles): (Vec<Meter>, Vec<bool>) =
+            if has_spectra(scene) { others(scene)? } else { Vec::new() }.into_iter().unzip();
         if others.is_empty() {
             return Ok(colours);
         }
@@ -52,58 +69,60 @@ impl Colours {
         match evaluated(&beside, previous, reporter, interrupted) {
             Err(Error::Cancelled) => return Err(Error::Cancelled),
             Err(error) => colours.missing = Some(error.to_string()),
-            Ok(found) => colours.places.extend(found.meters.iter().filter_map(|meter| {
-                let (name, at) = (meter.meter.origin.to_string(), meter.meter.position);
-                Some(Place { name, at, colour: meter.colour.clone()? })
+            Ok(found) => colours.places.extend(found.meters.iter().zip(are_middles).filter_map(|(meter, is_middle)| {
+                let (of, at) = (meter.meter.origin.to_string(), meter.meter.position);
+                Some(Place { of, is_middle, at, colour: meter.colour.clone()? })
             })),
         }
         Ok(colours)
     }
 
     /// The section, where there is anything to be told.
-    pub(super) fn write(&self, options: &ReportOptions, page: &mut Page) -> Result<()> {
+    pub(super) fn write(&self, options: &ReportOptions, words: &Words, page: &mut Page) -> Result<()> {
         if self.places.is_empty() && self.missing.is_none() {
             return Ok(());
         }
-        page.section("Colour of the light");
+        let say = &words.colour;
+        page.section(&say.title);
         if let Some(missing) = &self.missing {
-            page.note(&format!("Illuminances have no figures of colour beside them: {missing}."));
+            page.note(&fill(&say.missing, &[("problem", missing)]));
         }
         if self.places.is_empty() {
             return Ok(());
         }
-        let names = ["place", "CCT, K", "Duv", "Ra", "R9", "Rf", "Rg", "mel. DER", "mel. EDI, lx"];
-        page.table(&names, &self.places.iter().map(Place::row).collect::<Vec<_>>(), &[]);
-        page.note(
-            "Of the light on the plane that is measured, lamps and surroundings together; ± is the standard error. CCT and Duv are by CIE 15, Ra and R9 by \
-             CIE 13.3, Rf and Rg by TM-30-20; DER is the melanopic daylight efficacy ratio and EDI the melanopic equivalent daylight illuminance (CIE S 026).",
-        );
+        page.table(&say.columns, &self.places.iter().map(|place| place.row(words)).collect::<Vec<_>>(), &[]);
+        page.note(&say.note);
         for place in &self.places {
-            if let Some(drawing) = place.colour.drawing(&place.name) {
-                page.wide_drawing(&drawing, &format!("{}: spectral irradiance, and TM-30's colour vector graphic", place.name));
+            let name = place.name(say);
+            if let Some(drawing) = place.colour.drawing(&name) {
+                page.wide_drawing(&drawing, &fill(&say.drawing, &[("place", &name)]));
             }
         }
-        self.plans.iter().try_for_each(|grid| plan(options, grid, page))
+        self.plans.iter().try_for_each(|grid| plan(options, grid, (words, &mut *page)))
     }
 }
 
 impl Place {
-    fn row(&self) -> Vec<String> {
-        let [x, y, z] = self.at;
+    fn name(&self, say: &ColourWords) -> String {
+        if self.is_middle { fill(&say.middle, &[("grid", &self.of)]) } else { self.of.clone() }
+    }
+
+    fn row(&self, words: &Words) -> Vec<String> {
         // Where a cell is narrow the error stands below its value.
         let whole = |text: String| text.replace("± ", "±\u{a0}");
-        let shown = |found: Option<Reading>| found.map_or("–".to_owned(), |reading| whole(with_error(&reading, "")));
+        let shown = |found: Option<Reading>| found.map_or("–".to_owned(), |reading| whole(figure(&reading, "", words)));
         let of = |measurand: Measurand| shown(self.colour.of(measurand));
-        let figure = |of: fn(&Figures) -> Option<f64>| shown(self.colour.figure(of));
+        let index = |of: fn(&Figures) -> Option<f64>| shown(self.colour.figure(of));
+        let [x, y, z] = self.at.map(|number| words.numbers.fixed(number, 2));
         vec![
-            format!("{} at {x:.2}, {y:.2}, {z:.2} m", self.name),
+            fill(&words.colour.at, &[("place", &self.name(&words.colour)), ("x", &x), ("y", &y), ("z", &z)]),
             of(Measurand::Cct),
-            self.colour.of(Measurand::Duv).map_or("–".to_owned(), |reading| whole(duv(reading))),
+            self.colour.of(Measurand::Duv).map_or("–".to_owned(), |reading| whole(words.numbers.form(&duv(reading)))),
             of(Measurand::Ra),
-            figure(|figures| figures.white.as_ref()?.special_index(9)),
+            index(|figures| figures.white.as_ref()?.special_index(9)),
             of(Measurand::Rf),
             of(Measurand::Rg),
-            figure(Figures::melanopic_der),
+            index(Figures::melanopic_der),
             shown(self.colour.melanopic_edi()),
         ]
     }
@@ -120,7 +139,7 @@ fn middle_of(grid: &GridReading) -> Option<Place> {
     let number = middle(&positions)?;
     let eyes = grid.eyes.as_ref().map_or(1, |eyes| eyes.facings.len());
     let colour = grid.colours.get(number * eyes)?.clone();
-    Some(Place { name: format!("middle of {}", grid.origin), at: positions[number], colour })
+    Some(Place { of: grid.origin.to_string(), is_middle: true, at: positions[number], colour })
 }
 
 /// The number of the place that is nearest to the mean of all.
@@ -137,13 +156,13 @@ fn has_spectra(scene: &Scene) -> bool {
     scene.lights.iter().any(of_light) || scene.materials.iter().any(of_surface)
 }
 
-/// Meters of colour where illuminance is measured: at meters, and at the middles of grids.
-fn others(scene: &Scene) -> Result<Vec<Meter>> {
+/// Meters of colour where illuminance is measured: at meters, and at the middles of grids, which these are.
+fn others(scene: &Scene) -> Result<Vec<(Meter, bool)>> {
     let is_lit = |measurand: Measurand| measurand == Measurand::Illuminance;
     let meters = scene.meters.iter().filter(|meter| is_lit(meter.measurand));
-    let mut found: Vec<Meter> = meters.map(|meter| Meter { measurand: Measurand::Ra, ..meter.clone() }).collect();
+    let mut found: Vec<(Meter, bool)> = meters.map(|meter| (Meter { measurand: Measurand::Ra, ..meter.clone() }, false)).collect();
     for grid in scene.grids.iter().filter(|grid| is_lit(grid.measurand)) {
-        found.extend(middle_meter(grid, &GridPoints::new(scene, grid)?));
+        found.extend(middle_meter(grid, &GridPoints::new(scene, grid)?).map(|meter| (meter, true)));
     }
     Ok(found)
 }
@@ -151,8 +170,7 @@ fn others(scene: &Scene) -> Result<Vec<Meter>> {
 fn middle_meter(grid: &Grid, points: &GridPoints) -> Option<Meter> {
     let positions: Vec<[f64; 3]> = points.known().collect();
     let meter = points.meters(grid).nth(middle(&positions)? * points.facings.len().max(1))?;
-    let origin = Origin { name: format!("middle of {}", grid.origin).into(), file: grid.origin.file.clone() };
-    Some(Meter { origin, measurand: Measurand::Ra, ..meter })
+    Some(Meter { origin: grid.origin.clone(), measurand: Measurand::Ra, ..meter })
 }
 
 #[cfg(test)]

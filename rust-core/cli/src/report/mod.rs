@@ -5,26 +5,27 @@ mod eyes;
 mod grids;
 mod head;
 mod html;
-mod numbers;
 mod pictures;
 mod power;
 mod schedule;
+mod year;
 
 pub(super) use head::{Head, today};
-pub(super) use html::Page;
+pub(super) use html::{Page, as_file};
 
 use super::{
     arguments::{ReportOptions, ScaleArguments},
     daylight,
     denoise::Denoiser,
     falsecolor,
-    file::{check_ending, check_targets, print_path, put},
+    file::{check_ending, check_targets, ending, print_path, put},
     measure::{apply_settings, author_grids, evaluated},
     messages::say,
     messages::tell,
     progress::Reporter,
     render::stage_options,
     stage::{Stage, light_model},
+    words::Words,
 };
 use colour::Colours;
 use gonio::{
@@ -34,27 +35,37 @@ use gonio::{
     output::FalseColourScale,
     scene::Integrator,
 };
+use gonio_page::{Language, check_browser};
 use gonio_usd::{Loaded, SampleTime, camera::choose, meter::axes};
 use pyo3::prelude::*;
 use schedule::Schedule;
 use std::sync::{Arc, atomic::AtomicBool};
+use year::Years;
+
+/// Endings of a page's file.
+const ENDINGS: &[&str] = &["html", "htm", "pdf"];
 
 /// Writes the page.
 pub(super) fn report(py: Python<'_>, options: &ReportOptions, interrupted: &'static AtomicBool) -> Result<i32> {
-    check_ending("output", &options.output, &["html", "htm"])?;
+    check_ending("output", &options.output, ENDINGS)?;
     // Said before anything is rendered.
     FalseColourScale::new(options.max_illuminance.unwrap_or(1.0), options.steps, None)?;
     FalseColourScale::new(options.max_luminance.unwrap_or(1.0), options.steps, None)?;
     check_targets([&options.output])?;
+    if ending(&options.output) == "pdf" {
+        check_browser().map_err(|error| Error::setting("output", error.to_string()))?;
+    }
+    let years = Years::read(&options.annual)?;
     let mut stage_options = stage_options(&options.stage)?;
     stage_options.time = options.frame.map_or(SampleTime::Start, SampleTime::Code);
     let stage = Stage::open(py, &options.stage.stage, &options.stage.state, &stage_options)?;
     author_grids(py, &stage, &options.grids, None)?;
     let mut loaded = stage.load(py, &stage_options, interrupted)?;
-    eyes::add(&mut loaded.scene, options)?;
+    let words = Words::new(Language::of_code(&options.language));
+    eyes::add(&mut loaded.scene, options, &words)?;
     let today = today(py).map_err(|error| Error::Internal(error.to_string()))?;
     let denoiser = denoiser(options);
-    py.detach(|| run(options, loaded, today, denoiser.as_ref(), interrupted))
+    py.detach(|| run((options, &words), loaded, (today, &years), denoiser.as_ref(), interrupted))
 }
 
 /// What takes the noise out of the pictures, unless that is not wanted or not to be had, which is told.
@@ -69,9 +80,9 @@ fn denoiser(options: &ReportOptions) -> Option<Denoiser> {
 }
 
 fn run(
-    options: &ReportOptions,
+    (options, words): (&ReportOptions, &Words),
     mut loaded: Loaded,
-    today: String,
+    (today, years): (String, &Years),
     denoiser: Option<&Denoiser>,
     interrupted: &'static AtomicBool,
 ) -> Result<i32> {
@@ -83,19 +94,21 @@ fn run(
     let measured = measured(options, &mut loaded, compiled.as_deref(), interrupted, &mut diagnostics)?;
     let lit = (&loaded.scene, &measured);
     let colours = Colours::new(lit, compiled.as_deref(), Reporter::new(options.quiet), interrupted)?;
-    let power = power(options, &loaded, compiled, &measured, interrupted)?;
+    let power = power(options, (&loaded, words), compiled, &measured, interrupted)?;
     tell(&options.stage, options.quiet, &diagnostics);
-    let schedule = Schedule::new(&loaded);
-    let mut page = Page::new(&Head::new(options, today));
-    schedule.write(&mut page);
-    pictures::write(&pictures, &mut page);
-    grids::write_grids(options, &measured.grids, &power, &mut page)?;
-    grids::write_meters(&measured.meters, &mut page);
-    colours.write(options, &mut page)?;
-    schedule.write_files(&mut page);
-    write_notes(&diagnostics, &mut page);
-    let text = page.finish();
-    put(&options.output, text.as_bytes())?;
+    let schedule = Schedule::new(&loaded, words);
+    let mut page = Page::new(&Head::new(options, today, words), words);
+    schedule.write(words, &mut page);
+    pictures::write(&pictures, words, &mut page);
+    grids::write_grids(options, &measured.grids, &power, (words, &mut page))?;
+    grids::write_meters(&measured.meters, words, &mut page);
+    colours.write(options, words, &mut page)?;
+    years.write(words, &mut page);
+    schedule.write_files(words, &mut page);
+    write_notes(&diagnostics, years, words, &mut page);
+    let html = page.finish();
+    let bytes = as_file(html.clone(), &options.output, interrupted).or_else(|error| html::kept(&html, &options.output, error))?;
+    put(&options.output, &bytes)?;
     if !options.quiet {
         print_path(&options.output);
     }
@@ -136,7 +149,7 @@ fn measured(
 /// The lines of the installed power density, of a scene that may have been compiled for its pictures.
 fn power(
     options: &ReportOptions,
-    loaded: &Loaded,
+    (loaded, words): (&Loaded, &Words),
     compiled: Option<Arc<CompiledScene>>,
     measured: &Measurements,
     interrupted: &'static AtomicBool,
@@ -146,15 +159,20 @@ fn power(
     }
     let scene = compiled.map_or_else(|| compile(&loaded.scene, None, interrupted).map(Arc::new), Ok)?;
     let [up, _] = axes(loaded.info.up_axis);
-    Ok(power::density(&measured.grids, &Schedule::new(loaded), &scene, up, options.grid_density))
+    Ok(power::density(&measured.grids, &Schedule::new(loaded, words), &scene, (up, options.grid_density), words))
 }
 
 /// What the stage asks for and is not as asked.
-fn write_notes(diagnostics: &[Diagnostic], page: &mut Page) {
-    let warnings: Vec<String> =
-        diagnostics.iter().filter(|diagnostic| diagnostic.severity == Severity::Warning).map(ToString::to_string).collect();
+fn write_notes(diagnostics: &[Diagnostic], years: &Years, words: &Words, page: &mut Page) {
+    let own = diagnostics.iter().filter(|diagnostic| diagnostic.severity == Severity::Warning).map(ToString::to_string);
+    let mut warnings: Vec<String> = own.collect();
+    for warning in years.warnings() {
+        if !warnings.contains(&warning) {
+            warnings.push(warning);
+        }
+    }
     if !warnings.is_empty() {
-        page.section("What is not as the stage asks");
+        page.section(&words.notes.title);
         page.list(&warnings);
     }
 }

@@ -1,7 +1,7 @@
 //! What a stage's cameras see, as it looks and in false colour.
 
 use super::html::Page;
-use crate::{arguments::ReportOptions, denoise::Denoiser, falsecolor, glare, render::drive};
+use crate::{arguments::ReportOptions, denoise::Denoiser, falsecolor, glare, render::drive, words::Words};
 use gonio::{
     Diagnostic, Error, Result,
     colour::luminance_of_pixel,
@@ -12,7 +12,7 @@ use gonio::{
     render::Render,
     scene::{Aov, Integrator},
 };
-use gonio_formats::short_number;
+use gonio_page::fill;
 use gonio_simd::Execution;
 use gonio_usd::{
     Loaded,
@@ -36,7 +36,7 @@ pub(super) struct Picture {
     samples: u32,
     denoised: bool,
     /// What an eye in the camera's place would say, if it sees enough.
-    glare: Vec<String>,
+    glare: Option<Glare>,
 }
 
 /// Pictures of cameras by path, one after the other, and the scene as it was compiled last; what compiling finds goes to `diagnostics`.
@@ -139,28 +139,27 @@ fn as_jpeg(image: &Image, options: &ReportOptions, execution: Execution) -> Resu
 }
 
 /// UGR and DGP of what a camera sees, if that is half a world at least.
-fn rating(image: &Image, luminances: &[f32]) -> Result<Vec<String>> {
-    let eye = image.frame.view.and_then(|view| EyeView::new(view, image.size()).ok());
-    match eye.filter(EyeView::covers_hemisphere) {
-        Some(eye) => Ok(glare::as_text(&Glare::new(luminances, &eye, &GlareOptions::default())?)),
-        None => Ok(Vec::new()),
-    }
+fn rating(image: &Image, luminances: &[f32]) -> Result<Option<Glare>> {
+    let eye = image.frame.view.and_then(|view| EyeView::new(view, image.size()).ok()).filter(EyeView::covers_hemisphere);
+    eye.map(|eye| Glare::new(luminances, &eye, &GlareOptions::default())).transpose()
 }
 
 /// The pictures with their captions.
-pub(super) fn write(pictures: &[Picture], page: &mut Page) {
+pub(super) fn write(pictures: &[Picture], words: &Words, page: &mut Page) {
     if pictures.is_empty() {
         return;
     }
-    page.section("Pictures");
+    let say = &words.pictures;
+    page.section(&say.title);
     for picture in pictures {
         page.part(&picture.camera);
-        let denoised = if picture.denoised { ", denoised" } else { "" };
-        page.picture("jpeg", &picture.colour, &format!("as the eye sees it; {} samples a pixel{denoised}", picture.samples));
-        let [mean, greatest] = picture.figures.map(short_number);
-        page.picture("png", &picture.luminance, &format!("luminance: mean {mean} cd/m², greatest {greatest} cd/m²"));
-        if !picture.glare.is_empty() {
-            page.list(&picture.glare);
+        let denoised = if picture.denoised { say.denoised.as_str() } else { "" };
+        let seen = fill(&say.seen, &[("samples", &picture.samples.to_string()), ("denoised", denoised)]);
+        page.picture("jpeg", &picture.colour, &seen);
+        let [mean, greatest] = picture.figures.map(|value| words.numbers.short(value));
+        page.picture("png", &picture.luminance, &fill(&say.luminance, &[("mean", &mean), ("greatest", &greatest)]));
+        if let Some(glare) = &picture.glare {
+            page.list(&glare::as_text(glare, words));
         }
     }
 }

@@ -4,12 +4,11 @@ use super::html::Page;
 use crate::{
     light_words::describe,
     photometry::{self, ugr},
+    words::Words,
 };
 use gonio::{compile::luminous_fluxes, scene::Light};
-use gonio_formats::{
-    photometry::{CATALOGUE_SPACING, Goniogram, PolarUnit, polar_diagram},
-    short_number,
-};
+use gonio_formats::photometry::{CATALOGUE_SPACING, Goniogram, PolarUnit, polar_diagram};
+use gonio_page::fill;
 use gonio_usd::{Loaded, LuminaireFile};
 
 /// Lights that differ in nothing but their place.
@@ -43,22 +42,23 @@ pub(super) struct Schedule<'a> {
 }
 
 impl<'a> Schedule<'a> {
-    pub(super) fn new(loaded: &'a Loaded) -> Self {
+    pub(super) fn new(loaded: &'a Loaded, words: &Words) -> Self {
         let scene = &loaded.scene;
         let mut kinds: Vec<Kind> = Vec::new();
         let mut places = Vec::new();
         let mut far = Vec::new();
         for (light, flux) in scene.lights.iter().zip(luminous_fluxes(scene)).filter(|(light, _)| !light.portal) {
             if light.shape.is_at_infinity() {
-                far.push(format!("{}: {}", light.origin.name, describe(light)));
+                far.push(format!("{}: {}", light.origin.name, describe(light, words)));
                 continue;
             }
             let file = loaded.luminaires.iter().find(|file| file.is_of(light));
             places.push((light.transform.point([0.0; 3]), file.and_then(watts)));
-            let key = format!("{:?} {} {} {flux:.2?}", file.map(|file| &file.path), describe(light), light.share());
+            let what = describe(light, words);
+            let key = format!("{:?} {what} {} {flux:.2?}", file.map(|file| &file.path), light.share());
             match kinds.iter_mut().find(|kind| kind.key == key) {
                 Some(known) => known.count += 1,
-                None => kinds.push(kind(key, light, file, flux)),
+                None => kinds.push(kind(key, what, light, file, flux)),
             }
         }
         let is_lit = |file: &&LuminaireFile| scene.lights.iter().any(|light| file.is_of(light));
@@ -74,49 +74,49 @@ impl<'a> Schedule<'a> {
     }
 
     /// The table with its totals, and what does not stand in it.
-    pub(super) fn write(&self, page: &mut Page) {
-        page.section("Luminaires");
+    pub(super) fn write(&self, words: &Words, page: &mut Page) {
+        let say = &words.luminaires;
+        page.section(&say.title);
         if self.kinds.is_empty() {
-            page.paragraph("The stage has no lights with a place.");
+            page.paragraph(&say.none);
         } else {
-            let rows: Vec<Vec<String>> = self.kinds.iter().map(Kind::row).collect();
-            let names =
-                ["type", "file", "maker", "count", "flux, lm", "power, W", "lm/W", "dimmed to", "flux in all, lm", "power in all, W"];
-            page.table(&names, &rows, &self.totals());
-            page.note("Flux is as lit: dimming and maintenance factors are counted. Power is what the file states, at full power.");
+            let rows: Vec<Vec<String>> = self.kinds.iter().map(|kind| kind.row(words)).collect();
+            page.table(&say.columns, &rows, &self.totals(words));
+            page.note(&say.note);
         }
         if !self.far.is_empty() {
-            page.part("Light from afar");
+            page.part(&say.afar);
             page.list(&self.far);
         }
         if self.shining > 0 {
-            page.note(&format!("{} materials shine by themselves; their flux is not in the table.", self.shining));
+            page.note(&fill(&say.shining, &[("count", &self.shining.to_string())]));
         }
     }
 
-    fn totals(&self) -> Vec<String> {
+    fn totals(&self, words: &Words) -> Vec<String> {
         let sum = |of: fn(&Kind) -> Option<f64>| {
             let (known, unknown): (Vec<&Kind>, Vec<&Kind>) = self.kinds.iter().partition(|kind| of(kind).is_some());
             let sum: f64 = known.iter().filter_map(|kind| Some(of(kind)? * kind.count as f64)).sum();
             let unknown: usize = unknown.iter().map(|kind| kind.count).sum();
+            let value = words.numbers.short(sum);
             match (known.is_empty(), unknown) {
                 (true, _) => "–".to_owned(),
-                (_, 0) => short_number(sum),
-                (_, unknown) => format!("{} without {unknown} unknown", short_number(sum)),
+                (_, 0) => value,
+                (_, unknown) => fill(&words.luminaires.unknown, &[("value", &value), ("count", &unknown.to_string())]),
             }
         };
         let blank = String::new;
         let count = self.kinds.iter().map(|kind| kind.count).sum::<usize>().to_string();
         let (flux, watts) = (sum(|kind| kind.flux), sum(|kind| kind.watts));
-        vec!["in all".into(), blank(), blank(), count, blank(), blank(), blank(), blank(), flux, watts]
+        vec![words.luminaires.in_all.clone(), blank(), blank(), count, blank(), blank(), blank(), blank(), flux, watts]
     }
 
     /// Each file with its polar diagram and what it says.
-    pub(super) fn write_files(&self, page: &mut Page) {
+    pub(super) fn write_files(&self, words: &Words, page: &mut Page) {
         if self.files.is_empty() {
             return;
         }
-        page.section("Light distributions");
+        page.section(&words.file.title);
         let mut shown: Vec<&str> = Vec::new();
         for file in &self.files {
             // One file may be read for several purposes.
@@ -124,20 +124,21 @@ impl<'a> Schedule<'a> {
                 shown.push(&file.path);
                 page.part(&file.path);
                 page.drawing(&polar_diagram(&file.photometry, PolarUnit::CandelaPerKilolumen), &file.path);
-                page.list(&photometry::as_text(&file.photometry, &file.photometry.figures(), None));
-                write_ugr_table(&file.photometry, page);
+                page.list(&photometry::as_text(&file.photometry, &file.photometry.figures(), None, words));
+                write_ugr_table(&file.photometry, words, page);
             }
         }
     }
 }
 
 /// The UGR table of a file's luminaire, or why there is none.
-fn write_ugr_table(goniogram: &Goniogram, page: &mut Page) {
+fn write_ugr_table(goniogram: &Goniogram, words: &Words, page: &mut Page) {
     match goniogram.ugr_table(CATALOGUE_SPACING) {
         Ok(table) => {
-            let names = ugr::names();
-            page.table(&names.iter().map(String::as_str).collect::<Vec<_>>(), &ugr::rows(&table), &[]);
-            page.note(&format!("{}. Columns are the reflectances of ceiling, walls and plane in per cent.", ugr::caption(&table)));
+            let rows: Vec<Vec<String>> =
+                ugr::rows(&table).iter().map(|row| row.iter().map(|cell| words.numbers.form(cell)).collect()).collect();
+            page.table(&ugr::names(&words.ugr), &rows, &[]);
+            page.note(&fill(&words.ugr.note, &[("caption", &ugr::caption(&table, words))]));
         }
         Err(error) => page.note(&error.problem),
     }
@@ -148,11 +149,11 @@ fn watts(file: &LuminaireFile) -> Option<f64> {
     file.photometry.figures().watts
 }
 
-fn kind(key: String, light: &Light, file: Option<&LuminaireFile>, flux: Option<f64>) -> Kind {
+fn kind(key: String, what: String, light: &Light, file: Option<&LuminaireFile>, flux: Option<f64>) -> Kind {
     let text = |keyword: &str| file.and_then(|file| file.photometry.text(keyword)).map(str::to_owned);
     Kind {
         key,
-        name: text("LUMINAIRE").or_else(|| text("LUMCAT")).unwrap_or_else(|| describe(light)),
+        name: text("LUMINAIRE").or_else(|| text("LUMCAT")).unwrap_or(what),
         maker: text("MANUFAC").unwrap_or_else(|| "–".into()),
         file: file.map_or("–".into(), |file| file.path.clone()),
         count: 1,
@@ -163,8 +164,8 @@ fn kind(key: String, light: &Light, file: Option<&LuminaireFile>, flux: Option<f
 }
 
 impl Kind {
-    fn row(&self) -> Vec<String> {
-        let shown = |value: Option<f64>| value.map_or("–".to_owned(), short_number);
+    fn row(&self, words: &Words) -> Vec<String> {
+        let shown = |value: Option<f64>| value.map_or("–".to_owned(), |value| words.numbers.short(value));
         let of_all = |value: Option<f64>| shown(value.map(|value| value * self.count as f64));
         // The lamp's own efficacy: what a dimmer leaves of its power no file tells.
         let full = self.flux.filter(|_| self.dimming > 0.0).map(|flux| flux / f64::from(self.dimming));

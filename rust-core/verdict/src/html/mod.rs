@@ -1,19 +1,17 @@
 //! One page that needs nothing beside itself.
 
-mod colour;
 mod gauge;
 mod plan;
 
 use crate::{
     bound::Verdict,
     measured::Area,
-    number::Numbers,
     plan::Plan,
     sheet::{Row, Sheet},
     text::{counted, reached, required},
-    words::{Language, Words, fill},
+    words::{Words, words},
 };
-use gonio_formats::escape;
+use gonio_page::{Language, Numbers, escaped, fill};
 
 /// How the page looks, on screens of any size, light and dark, and on A4.
 const STYLE: &str = include_str!("style.css");
@@ -30,7 +28,7 @@ struct Page<'a> {
 
 /// The sheet as HTML, made on a day.
 pub fn page(sheet: &Sheet, language: Language, date: &str) -> String {
-    let (words, numbers) = language.words();
+    let (words, numbers) = words(language);
     let mut page = Page { sheet, words, numbers, text: String::new() };
     let (code, title) = (language.code(), escaped(&sheet.title()));
     page.add(&format!("<!DOCTYPE html>\n<html lang=\"{code}\">\n<head>\n<meta charset=\"utf-8\">\n"));
@@ -153,9 +151,4 @@ impl Page<'_> {
 /// A verdict's sign.
 fn sign(verdict: Verdict) -> String {
     format!("<svg class=\"icon\" aria-hidden=\"true\"><use href=\"#{}\"/></svg>", verdict.key())
-}
-
-/// A text as HTML holds it, in attributes too; control characters become blanks.
-fn escaped(text: &str) -> String {
-    escape(text).replace('"', "&quot;").replace('\'', "&#39;")
 }

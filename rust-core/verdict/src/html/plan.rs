@@ -1,20 +1,18 @@
 //! A grid's values in false colour.
 
-use super::{
+use crate::plan::Plan;
+use gonio_page::{
+    Numbers,
     colour::{colour, ink},
     escaped,
+    plot::cell_text,
 };
-use crate::{number::Numbers, plan::Plan};
-use gonio_formats::short_number;
 
 /// Most cells that are drawn.
 const MOST: usize = 10_000;
 /// Room for the cells, and the legend's height below them.
 const ROOM: [f64; 2] = [720.0, 440.0];
 const LEGEND: f64 = 52.0;
-/// Letters: how wide one is to its height, the greatest height, and the least that can be read.
-const LETTER: f64 = 0.6;
-const HEIGHTS: [f64; 2] = [7.5, 20.0];
 /// The greatest half width of the least point's ring.
 const RING: f64 = 42.0;
 /// Steps and ticks of the legend.
@@ -47,7 +45,7 @@ impl Drawn {
             let Some(value) = *value else { continue };
             let fill = colour(share(value));
             svg.push_str(&format!("<rect x=\"{x:.2}\" y=\"{y:.2}\" width=\"{:.2}\" height=\"{:.2}\" fill=\"{fill}\"/>", cell[0], cell[1]));
-            svg.push_str(&text(&numbers.form(&short_number(value)), [x + 0.5 * cell[0], y + 0.5 * cell[1]], cell, ink(share(value))));
+            svg.push_str(&cell_text(&numbers.short(value), [x + 0.5 * cell[0], y + 0.5 * cell[1]], cell, ink(share(value))));
         }
         if let Some(index) = least(plan) {
             let [x, y] = corner(index / plan.size[0] / block * coarse.size[0] + index % plan.size[0] / block);
@@ -63,16 +61,6 @@ impl Drawn {
 fn least(plan: &Plan) -> Option<usize> {
     let values = plan.values.iter().enumerate().filter_map(|(index, value)| Some((index, (*value)?)));
     values.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
-}
-
-/// A value in its cell; nothing where it could not be read.
-fn text(value: &str, [x, y]: [f64; 2], cell: [f64; 2], ink: &str) -> String {
-    let height = (0.84 * cell[0] / (LETTER * value.chars().count().max(4) as f64)).min(0.5 * cell[1]).min(HEIGHTS[1]);
-    if height < HEIGHTS[0] {
-        return String::new();
-    }
-    let y = y + 0.35 * height;
-    format!("<text x=\"{x:.2}\" y=\"{y:.2}\" font-size=\"{height:.1}\" text-anchor=\"middle\" fill=\"{ink}\">{}</text>", escaped(value))
 }
 
 /// The least point's mark: white within black, to be seen on any colour.
@@ -97,7 +85,7 @@ fn legend([low, high]: [f64; 2], top: f64, unit: &str, numbers: Numbers) -> Stri
     let tick = |index: usize| {
         let share = index as f64 / (TICKS - 1) as f64;
         let sign = if index + 1 == TICKS { format!(" {unit}") } else { String::new() };
-        let value = numbers.form(&short_number(low + share * (high - low))) + &sign;
+        let value = numbers.short(low + share * (high - low)) + &sign;
         let (x, y) = (left + 0.5 * ROOM[0] * share, y + 30.0);
         format!(
             "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"16\" text-anchor=\"middle\" fill=\"currentColor\">{}</text>",

@@ -43,7 +43,7 @@ fn grid(of: &Map<String, Value>, file: usize) -> Found<Area> {
         area.figures.retain(|other| !other.aliases.contains(&key));
         area.figures.push(figure);
     }
-    area.figures.extend(daylight_provision(of));
+    area.figures.extend(daylight_provision(of, errors));
     area.figures.extend(electric_light(of, errors));
     Ok(area)
 }
@@ -63,12 +63,14 @@ fn electric_light(of: &Map<String, Value>, errors: Option<&Map<String, Value>>) 
 }
 
 /// Shares of the area by both methods of EN 17037: `hourly_area_300`, `daylight_factor_area_300`.
-fn daylight_provision(of: &Map<String, Value>) -> Vec<Figure> {
+fn daylight_provision(of: &Map<String, Value>, errors: Option<&Map<String, Value>>) -> Vec<Figure> {
     let Some(provision) = of.get("en17037").and_then(Value::as_object) else { return Vec::new() };
     let of_method = |(method, value): (&String, &Value)| {
         let numbers = value.as_object().map(table::numbers).unwrap_or_default();
-        let named = numbers.into_iter().map(|(key, value)| (format!("{method}_{key}"), value));
-        named.map(|(key, value)| figure(&key, value.map(|value| Estimate::new(value, None)))).collect::<Vec<_>>()
+        let errors = errors.and_then(|errors| errors.get("en17037")?.get(method)?.as_object()).map(table::numbers).unwrap_or_default();
+        let error = |key: &str| errors.iter().find(|(known, _)| known == key).and_then(|(_, error)| *error);
+        let named = numbers.into_iter().map(|(key, value)| (format!("{method}_{key}"), value, error(&key)));
+        named.map(|(key, value, error)| figure(&key, value.map(|value| Estimate::new(value, error)))).collect::<Vec<_>>()
     };
     provision.iter().flat_map(of_method).collect()
 }

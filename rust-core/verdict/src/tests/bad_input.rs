@@ -119,7 +119,7 @@ fn no_bytes_break_the_readers() {
 fn sheet_of(bytes: &[u8], read: Requirements, files: &[Value]) {
     let files: Vec<_> = files.iter().map(|file| ("a.json".into(), file.to_string().into_bytes())).collect();
     let found = Measured::read(&files).expect("good files");
-    let _ = crate::Sheet::new(read, bytes, found).map(|sheet| crate::page(&sheet, crate::Language::English, ""));
+    let _ = crate::Sheet::new(read, bytes, found).map(|sheet| crate::page(&sheet, gonio_page::Language::English, ""));
 }
 
 fn changed(bytes: &[u8]) -> impl Iterator<Item = Vec<u8>> {

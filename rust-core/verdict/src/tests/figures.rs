@@ -108,7 +108,7 @@ fn years() {
         ("area = 'Desk'; quantity = 'minimum'; of = 'da_300'", 0.4, Some(0.01)),
         ("area = 'Desk'; quantity = 'maximum'; of = 'da_300'; unit = '%'", 60.0, Some(3.0)),
         ("area = 'Desk'; quantity = 'minimum'; of = 'daylight_hours_300'", 0.8, None),
-        ("area = 'Desk'; quantity = 'hourly_area_300'", 0.9, None),
+        ("area = 'Desk'; quantity = 'hourly_area_300'", 0.9, Some(0.02)),
     ] {
         let found = value(keys, &[year()]);
         assert!((found.0 - expected).abs() < 1e-12, "{keys}: {found:?}");

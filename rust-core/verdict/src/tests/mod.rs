@@ -40,7 +40,7 @@ fn year() -> Value {
             "name": "Desk", "columns": 2, "rows": 1, "sda_300_50": 0.5, "ase_1000_250": null, "mean_lx": 800.0, "median_daylight_factor": 2.1,
             "en17037": { "hourly": { "area_100_300_500_750": [1.0, 0.9, 0.5, 0.1], "level": "medium" }, "median_diffuse_lx": 13000.0 },
             "points": [point(0.4, [0.0, 0.0, 0.0]), point(0.6, [0.0, 0.5, 0.0])],
-            "standard_errors": { "sda_300_50": 0.01, "mean_lx": 10.0, "points": [{ "da_300": 0.01 }, { "da_300": 0.03 }] },
+            "standard_errors": { "sda_300_50": 0.01, "mean_lx": 10.0, "en17037": { "hourly": { "area_100_300_500_750": [0.0, 0.02, 0.03, 0.01] } }, "points": [{ "da_300": 0.01 }, { "da_300": 0.03 }] },
         }],
     })
 }

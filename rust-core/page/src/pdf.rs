@@ -44,14 +44,26 @@ pub enum PdfError {
     Stopped,
 }
 
+/// Whether there is a browser for it, before anything is computed for a page.
+///
+/// # Errors
+/// There is none.
+pub fn check_browser() -> Result<(), PdfError> {
+    found().map(drop)
+}
+
+fn found() -> Result<PathBuf, PdfError> {
+    browser(env::var_os("PATH").unwrap_or_default().as_os_str()).ok_or(PdfError::NoBrowser)
+}
+
 /// The bytes of a PDF of a page, by the first browser on PATH. `stopped` is asked meanwhile.
 ///
 /// # Errors
 /// There is no browser, it fails or takes more than 90 s, or it is to stop.
 pub fn pdf(html: &str, stopped: &dyn Fn() -> bool) -> Result<Vec<u8>, PdfError> {
-    let browser = browser(env::var_os("PATH").unwrap_or_default().as_os_str()).ok_or(PdfError::NoBrowser)?;
+    let browser = found()?;
     let folder = Folder::new()?;
-    let (page, out) = (folder.0.join("sheet.html"), folder.0.join("sheet.pdf"));
+    let (page, out) = (folder.0.join("page.html"), folder.0.join("page.pdf"));
     let kept = |path: &Path| {
         let path = path.to_owned();
         move |source| PdfError::File { path, source }
@@ -104,7 +116,7 @@ struct Folder(PathBuf);
 impl Folder {
     fn new() -> Result<Self, PdfError> {
         let now = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_nanos());
-        let path = env::temp_dir().join(format!("gonio-verdict-{}-{now}", std::process::id()));
+        let path = env::temp_dir().join(format!("gonio-page-{}-{now}", std::process::id()));
         // One that is there already is somebody else's.
         fs::create_dir(&path).map_err(|source| PdfError::File { path: path.clone(), source })?;
         Ok(Self(path))

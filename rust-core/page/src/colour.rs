@@ -16,8 +16,8 @@ const RAMP: [[f64; 3]; 10] = [
 /// From where on black is read more easily than white.
 const LIGHT: f64 = 0.5;
 
-/// The colour of a share of the scale.
-pub(super) fn colour(share: f64) -> String {
+/// The colour of a share of the scale, as `#rrggbb`.
+pub fn colour(share: f64) -> String {
     let at = share.clamp(0.0, 1.0) * (RAMP.len() - 1) as f64;
     let low = (at as usize).min(RAMP.len() - 2);
     let part = at - low as f64;
@@ -26,6 +26,6 @@ pub(super) fn colour(share: f64) -> String {
 }
 
 /// The colour of a text over that.
-pub(super) fn ink(share: f64) -> &'static str {
+pub fn ink(share: f64) -> &'static str {
     if share > LIGHT { "#000" } else { "#fff" }
 }
