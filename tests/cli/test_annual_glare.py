@@ -2,6 +2,7 @@
 
 import json
 
+import almanac
 import numpy as np
 import pytest
 from wea_years import HOUR, write_wea
@@ -49,18 +50,6 @@ def weather(tmp_path, diffuse=12000.0, direct=0.0):
     path = tmp_path / "year.wea"
     write_wea(path, np.where(light, direct, 0.0), np.where(light, diffuse, 0.0))
     return path, light
-
-
-def suns():
-    """Unit vectors east, north, up by the formulas of Radiance's sun.c."""
-    day = np.arange(8760) // 24 + 1
-    declination = 0.4093 * np.sin(2 * np.pi / 365 * (day - 81))
-    adjusted = 0.170 * np.sin(4 * np.pi / 373 * (day - 80)) - 0.129 * np.sin(2 * np.pi / 355 * (day - 8))
-    hour = (HOUR + adjusted + (8.55 - 15) / 15) * np.pi / 12
-    latitude = np.radians(49.52)
-    up = np.sin(latitude) * np.sin(declination) - np.cos(latitude) * np.cos(declination) * np.cos(hour)
-    north = np.cos(latitude) * np.sin(declination) + np.sin(latitude) * np.cos(declination) * np.cos(hour)
-    return np.stack([np.cos(declination) * np.sin(hour), north, up], axis=1)
 
 
 def index(right, up, ahead):
@@ -119,10 +108,11 @@ def test_skies_below_the_threshold_are_no_sources(tmp_path, run):
     assert values[0, 12 + 24 * 170] == pytest.approx(dgp(0.5 * 6000 * 1.2, 0.0), abs=0.002)
 
 
-def test_the_sun_stands_at_its_place(tmp_path, run):
+@pytest.mark.parametrize("position", ["true", "radiance"])
+def test_the_sun_stands_at_its_place(tmp_path, run, position):
     file, light = weather(tmp_path, diffuse=6000.0, direct=40000.0)
-    _, values = year(run, tmp_path, stage(tmp_path), file, "--facing", "0,-1,0", "-m", "1")
-    sun = suns()
+    _, values = year(run, tmp_path, stage(tmp_path), file, "--facing", "0,-1,0", "-m", "1", "--sun-position", position)
+    sun = almanac.directions() if position == "true" else almanac.of_radiance()
     cosine, height = -sun[:, 1], sun[:, 2]
     at_eye = np.maximum(cosine, 0) * 40000
     ground = 0.2 * (6000 + 40000 * np.maximum(height, 0))

@@ -11,13 +11,13 @@ use crate::{
 };
 use gonio::{
     Error,
-    annual::{AnnualTask, told},
+    annual::{AnnualTask, SunPositions, told},
     annual_glare::{Eye, trace_eyes},
     measure::Watch,
     scene::Origin,
     sky::Frame,
 };
-use gonio_annual::{EyeGlare, GlareYear, Settings, Year, sky::SkyOptions};
+use gonio_annual::{EyeGlare, GlareYear, Settings, sky::SkyOptions};
 use gonio_simd::Execution;
 use pyo3::prelude::*;
 use std::path::Path;
@@ -77,7 +77,7 @@ impl AnnualGlareReading {
 /// Rates daylight glare over a year for eyes, pairs of a position in metres and where they look, `samples` paths each: one reading an eye. Lamps are dark, sky
 /// and sun give way to the weather's; blinds are as the scene has them. The other arguments are those of `annual`.
 #[pyfunction]
-#[pyo3(signature = (scene, weather, eyes, *, samples = 8192, division = 4, schedule = None, sky = "perez", ground = 0.2, dew_point = None, up = "Z", north = 0.0, cancelled = None))]
+#[pyo3(signature = (scene, weather, eyes, *, samples = 8192, division = 4, schedule = None, sky = "perez", sun_position = "true", ground = 0.2, dew_point = None, up = "Z", north = 0.0, cancelled = None))]
 #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
 pub(crate) fn annual_glare(
     py: Python<'_>,
@@ -88,13 +88,15 @@ pub(crate) fn annual_glare(
     division: u32,
     schedule: Option<&Bound<'_, PyAny>>,
     sky: &str,
+    sun_position: &str,
     ground: f64,
     dew_point: Option<f64>,
     up: &str,
     north: f64,
     cancelled: Option<Py<PyAny>>,
 ) -> PyResult<Vec<AnnualGlareReading>> {
-    let year = Year::read(Path::new("weather"), weather).map_err(|error| exception(told(error)))?;
+    let positions = SunPositions::parse(sun_position).map_err(exception)?;
+    let year = positions.read(Path::new("weather"), weather).map_err(exception)?;
     let schedule = used_steps(schedule, &year)?;
     let sky = SkyOptions { model: model(sky)?, ground, dew_point_c: dew_point, ..SkyOptions::default() };
     let scene = measured(&scene.scene, samples);

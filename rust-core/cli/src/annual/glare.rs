@@ -1,7 +1,7 @@
 //! `gonio annual-glare`.
 
 use super::{
-    inputs::{weather, year},
+    inputs::{positions, weather, year},
     pictures, settings, tell_doubts,
 };
 use crate::{
@@ -37,7 +37,7 @@ const MOST_DRAWN: usize = 24;
 
 /// Traces the eyes and rates their year.
 pub(crate) fn annual_glare(py: Python<'_>, options: &AnnualGlareOptions, interrupted: &'static AtomicBool) -> Result<i32> {
-    let (year, schedule) = year(&options.year, &weather(&options.year)?)?;
+    let (year, schedule) = year(&options.year, positions(&options.year), &weather(&options.year)?)?;
     tell_doubts(&options.year, &year);
     let stage_options = stage_options(&options.stage)?;
     let stage = Stage::open(py, &options.stage.stage, &options.stage.state, &stage_options)?;
@@ -137,6 +137,7 @@ fn finish(
             "weather": options.year.weather.to_string_lossy(),
             "place": year.place,
             "schedule": options.year.schedule,
+            "sun_position": positions(&options.year).name(),
             "used_steps": schedule.count(),
             "views": eyes.iter().zip(&figures).map(eye).collect::<Vec<_>>(),
             "views_within_5_percent": shares,

@@ -38,7 +38,7 @@ pub(super) fn annual_metrics(options: &AnnualMetricsOptions, interrupted: &Atomi
         grids.push(as_json(named, &grid));
     }
     if options.year.json {
-        print(&whole(&options.year, &inputs.year, grids).to_string());
+        print(&whole(&options.year, &inputs, grids).to_string());
     }
     Ok(0)
 }
@@ -83,13 +83,15 @@ fn as_json(named: &Named, grid: &Grid) -> Value {
     value
 }
 
-fn whole(options: &YearArguments, year: &Year, grids: Vec<Value>) -> Value {
+fn whole(options: &YearArguments, inputs: &Inputs, grids: Vec<Value>) -> Value {
+    let year = &inputs.year;
     json!({
         "weather": options.weather.to_string_lossy(),
         "place": year.place,
         "latitude_deg": year.latitude_deg,
         "longitude_deg": year.longitude_deg,
         "steps": year.steps.len(),
+        "sun_position": inputs.positions.name(),
         "schedule": options.schedule,
         "doubts": year.doubts,
         "grids": grids,

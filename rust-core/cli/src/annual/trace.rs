@@ -47,7 +47,7 @@ struct Task<'a> {
 /// Traces the stage's grids and calculates their year.
 pub(crate) fn annual(py: Python<'_>, options: &AnnualOptions, interrupted: &'static AtomicBool) -> Result<i32> {
     let weather = inputs::weather(&options.year)?;
-    let (year, schedule) = inputs::year(&options.year, &weather)?;
+    let (year, schedule) = inputs::year(&options.year, inputs::positions(&options.year), &weather)?;
     tell_doubts(&options.year, &year);
     let (facades, states) = facades(&options.facades, &year)?;
     let Loaded { scene, diagnostics, info, .. } = load(py, options, &[], interrupted)?;
@@ -90,7 +90,9 @@ fn calculated(task: &Task<'_>, checkpoints: &Checkpoints, interrupted: &'static 
     let named = grids.iter().zip(groups).map(named).collect();
     let told: Vec<Diagnostic> = told.iter().chain(&left_out).chain(&diagnostics).cloned().collect();
     let names: Vec<&str> = facades.iter().map(|facade| facade.name.as_str()).collect();
-    finish((options, &names), &Inputs { year: year.clone(), schedule: schedule.clone(), grids: named }, (&grids, &told), interrupted)
+    let positions = inputs::positions(&options.year);
+    let inputs = Inputs { year: year.clone(), positions, schedule: schedule.clone(), grids: named };
+    finish((options, &names), &inputs, (&grids, &told), interrupted)
 }
 
 /// Where rounds are kept.
@@ -146,7 +148,7 @@ fn finish(
         found.push(json);
     }
     if options.year.json {
-        let mut whole = whole(&options.year, &inputs.year, found);
+        let mut whole = whole(&options.year, inputs, found);
         whole["diagnostics"] = diagnostics_json(told);
         print(&whole.to_string());
     }

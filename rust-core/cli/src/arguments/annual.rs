@@ -54,6 +54,10 @@ pub(crate) struct YearArguments {
     /// How luminance is spread over the sky: perez (by the weather), or cie1 to cie16 with the weather's light.
     #[arg(long, value_name = "MODEL", default_value = "perez")]
     pub(crate) sky: String,
+    /// Where the sun stands: at its true place, by each record's own year, or where Radiance's formulas have it, up to 1° off, to compare with that.
+    /// annual-metrics takes 'radiance' for coefficients of suns, whose columns are those of 'gendaymtx -D'.
+    #[arg(long, value_enum)]
+    pub(crate) sun_position: Option<SunPositionArgument>,
     /// Albedo of the ground, 0 to 1.
     #[arg(long, value_name = "ALBEDO", default_value_t = 0.2, value_parser = finite::<f64>)]
     pub(crate) ground: f64,
@@ -72,6 +76,15 @@ pub(crate) struct YearArguments {
     /// Write each grid's series to a folder: points × hours in lx as .npy, all light and direct, and a CSV table of the points.
     #[arg(long, short = 'o', value_name = "FOLDER")]
     pub(crate) output: Option<PathBuf>,
+}
+
+/// Whose formulas tell where the sun stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SunPositionArgument {
+    /// At its true place, refraction included, in the middle of the part of each hour in which it is up.
+    True,
+    /// Where 'gendaymtx' has it, in the middle of each hour.
+    Radiance,
 }
 
 /// The lamps of the room, whose energy beside daylight is asked for.

@@ -7,10 +7,14 @@ mod file;
 mod grid;
 mod keeper;
 mod sky;
+mod suns;
+#[cfg(test)]
+mod tests;
 
 pub use facade::{Facade, FacadeBlinds};
 pub use grid::AnnualGrid;
 pub use keeper::Checkpoints;
+pub use suns::SunPositions;
 
 use crate::{
     error::{Diagnostic, Error, Result},
