@@ -102,6 +102,15 @@ def test_an_even_sky(tmp_path, run):
     assert (tmp_path / "out" / "glare_1.png").exists() and (tmp_path / "out" / "glare.csv").read_text().count("\n") == 2
 
 
+def test_closed_blinds_dim_what_is_seen(tmp_path, run):
+    """A share of the light of an even sky: of its luminance, of the light at the eye and of the ground's."""
+    file, _ = weather(tmp_path, diffuse=20000.0)
+    _, values = year(run, tmp_path, stage(tmp_path), file, "--facing", "0,1,0", "--blinds", "0.5", "--closed-hours", "12-24")
+    for hour, share in ((10, 1.0), (13, 0.5)):
+        sources, _ = even_sky(20000 / np.pi, lambda ahead, share=share: share * np.ones_like(ahead))
+        assert values[0, hour + 24 * 170] == pytest.approx(dgp(share * 0.5 * 20000 * 1.2, sources), abs=0.003)
+
+
 def test_skies_below_the_threshold_are_no_sources(tmp_path, run):
     file, _ = weather(tmp_path, diffuse=6000.0)
     _, values = year(run, tmp_path, stage(tmp_path), file, "--facing", "0,1,0")

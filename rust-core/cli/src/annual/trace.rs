@@ -138,7 +138,7 @@ fn finish(
             written.iter().filter(|_| !options.year.json).for_each(|path| print_path(path));
         }
         if !options.year.json {
-            let closed = text::closed(facades, &grid);
+            let closed = text::closed(facades, &grid.closed_hours);
             text::lines(&named.name, &grid, &options.metrics).iter().chain(&closed).for_each(|line| print(line));
         }
         let mut json = placed(as_json(named, &grid), traced);
