@@ -95,7 +95,8 @@ pub(super) fn light(groups: &[Prepared], columns: &Columns, threads: usize) -> L
     let open: Vec<GroupLight> = groups.iter().map(|group| group.open_light(columns, threads)).collect();
     let operated = operated(&open, steps, |group| groups[group].closed_light(&open[group], columns, threads));
     let knows_sun = open.iter().all(|group| group.direct.is_some());
-    let (mut totals, mut directs, mut suns, mut closed): (Vec<Vec<f32>>, Vec<Vec<f32>>, Vec<Vec<f32>>, Vec<Vec<bool>>) = Default::default();
+    let [mut totals, mut directs, mut suns]: [Vec<Vec<f32>>; 3] = Default::default();
+    let mut closed = Vec::with_capacity(groups.len());
     for (GroupLight { open: mut light, direct, .. }, operated) in open.into_iter().zip(operated) {
         let mut sun = direct.clone();
         closed.push(operated.map_or_else(Vec::new, |operated| {

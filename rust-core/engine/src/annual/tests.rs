@@ -64,7 +64,7 @@ fn suns_stand_where_an_almanac_has_them() {
         let mut worst = [0.0_f64; 2];
         for step in &found.steps {
             let [height, azimuth] = noaa(days(year, step.day_of_year, step.hour, place[2]), place);
-            if height < 8.0 || height > 89.0 {
+            if !(8.0..=89.0).contains(&height) {
                 continue;
             }
             let off = (step.sun.azimuth.to_degrees() - azimuth + 180.0).rem_euclid(360.0) - 180.0;
