@@ -118,3 +118,15 @@ def test_blinds_and_surfaces_go_together(tmp_path, run):
     midday = values("--closed-variant", state, "--closed-hours", "11-13")
     np.testing.assert_allclose(midday, np.where(np.abs(HOUR - 12) < 1, closed, open_), atol=1e-5)
     assert np.abs(open_ - closed).max() > 0.1
+
+
+def test_python_has_them_too(tmp_path, run):
+    import gonio
+
+    file, _ = weather(tmp_path, diffuse=26000.0)
+    path = stage(tmp_path, MATTE + WALL)
+    _, values = year(run, tmp_path, path, file, "--facing", "0,1,0", "--surfaces", "-m", "1")
+    eyes = [((0, 0, 1.2), (0, 1, 0))]
+    (found,) = gonio.annual_glare(gonio.load_usd(path), file.read_bytes(), eyes, samples=4096, division=1, sky="cie5", surfaces=True)
+    np.testing.assert_array_equal(np.asarray(found.values, np.float32), values[0])
+    assert 0 < found.standard_errors["dgp_5_percent"] < 0.01
