@@ -122,6 +122,17 @@ def test_suns_stand_at_their_places(run, folder):
     assert grid["ase_1000_250"] == pytest.approx((hours > 250).mean()) and 0 < grid["ase_1000_250"] < 1
 
 
+def test_columns_of_suns_are_radiances(run, folder):
+    """Without them the sun stands at its place, unless it is asked for elsewhere."""
+    room, direct = saved(folder / "room.npy", level(0.02)), saved(folder / "direct.npy", suns(0.1))
+    assert calculated(run, folder, "--coefficients", room)["sun_position"] == "true"
+    assert calculated(run, folder, "--coefficients", room, "--sun-position", "radiance")["sun_position"] == "radiance"
+    assert calculated(run, folder, "--coefficients", room, "--sun-coefficients", direct)["sun_position"] == "radiance"
+    words = ("--coefficients", room, "--sun-coefficients", direct, "--sun-position", "true")
+    done = run("annual-metrics", "--weather", folder / "year.wea", *words)
+    assert done.returncode == 1 and "sun-position: true was found, but columns of suns, which gendaymtx places; expected radiance" in done.stderr
+
+
 def test_blinds_close_by_groups(run, folder):
     files = [saved(folder / f"{name}.npy", level(*[0.02] * 4)) for name in ("south", "west")]
     direct = [saved(folder / "south_sun.npy", suns(0.1, 0, 0, 0)), saved(folder / "west_sun.npy", suns(0, 0, 0, 0))]

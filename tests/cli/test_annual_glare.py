@@ -2,6 +2,7 @@
 
 import json
 
+import almanac
 import numpy as np
 import pytest
 from wea_years import HOUR, write_wea
@@ -49,18 +50,6 @@ def weather(tmp_path, diffuse=12000.0, direct=0.0):
     path = tmp_path / "year.wea"
     write_wea(path, np.where(light, direct, 0.0), np.where(light, diffuse, 0.0))
     return path, light
-
-
-def suns():
-    """Unit vectors east, north, up by the formulas of Radiance's sun.c."""
-    day = np.arange(8760) // 24 + 1
-    declination = 0.4093 * np.sin(2 * np.pi / 365 * (day - 81))
-    adjusted = 0.170 * np.sin(4 * np.pi / 373 * (day - 80)) - 0.129 * np.sin(2 * np.pi / 355 * (day - 8))
-    hour = (HOUR + adjusted + (8.55 - 15) / 15) * np.pi / 12
-    latitude = np.radians(49.52)
-    up = np.sin(latitude) * np.sin(declination) - np.cos(latitude) * np.cos(declination) * np.cos(hour)
-    north = np.cos(latitude) * np.sin(declination) + np.sin(latitude) * np.cos(declination) * np.cos(hour)
-    return np.stack([np.cos(declination) * np.sin(hour), north, up], axis=1)
 
 
 def index(right, up, ahead):
@@ -113,16 +102,26 @@ def test_an_even_sky(tmp_path, run):
     assert (tmp_path / "out" / "glare_1.png").exists() and (tmp_path / "out" / "glare.csv").read_text().count("\n") == 2
 
 
+def test_closed_blinds_dim_what_is_seen(tmp_path, run):
+    """A share of the light of an even sky: of its luminance, of the light at the eye and of the ground's."""
+    file, _ = weather(tmp_path, diffuse=20000.0)
+    _, values = year(run, tmp_path, stage(tmp_path), file, "--facing", "0,1,0", "--blinds", "0.5", "--closed-hours", "12-24")
+    for hour, share in ((10, 1.0), (13, 0.5)):
+        sources, _ = even_sky(20000 / np.pi, lambda ahead, share=share: share * np.ones_like(ahead))
+        assert values[0, hour + 24 * 170] == pytest.approx(dgp(share * 0.5 * 20000 * 1.2, sources), abs=0.003)
+
+
 def test_skies_below_the_threshold_are_no_sources(tmp_path, run):
     file, _ = weather(tmp_path, diffuse=6000.0)
     _, values = year(run, tmp_path, stage(tmp_path), file, "--facing", "0,1,0")
     assert values[0, 12 + 24 * 170] == pytest.approx(dgp(0.5 * 6000 * 1.2, 0.0), abs=0.002)
 
 
-def test_the_sun_stands_at_its_place(tmp_path, run):
+@pytest.mark.parametrize("position", ["true", "radiance"])
+def test_the_sun_stands_at_its_place(tmp_path, run, position):
     file, light = weather(tmp_path, diffuse=6000.0, direct=40000.0)
-    _, values = year(run, tmp_path, stage(tmp_path), file, "--facing", "0,-1,0", "-m", "1")
-    sun = suns()
+    _, values = year(run, tmp_path, stage(tmp_path), file, "--facing", "0,-1,0", "-m", "1", "--sun-position", position)
+    sun = almanac.directions() if position == "true" else almanac.of_radiance()
     cosine, height = -sun[:, 1], sun[:, 2]
     at_eye = np.maximum(cosine, 0) * 40000
     ground = 0.2 * (6000 + 40000 * np.maximum(height, 0))

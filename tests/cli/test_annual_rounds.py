@@ -83,6 +83,7 @@ def test_what_cannot_be_used_is_told_in_one_line(run, room, tmp_path):
     assert "its points lie elsewhere" in error_of(run(*line(room, *resumed, "--margin", 0.2)))
     assert "its sky has 578 patches, 2306 were asked for" in error_of(run(*line(room, *resumed, "-m", 4)))
     assert "its suns stand elsewhere" in error_of(run(*line(room, *resumed, "--north", 30)))
+    assert "its suns stand elsewhere" in error_of(run(*line(room, *resumed, "--sun-position", "radiance")))
     assert "2 were asked for" in error_of(run(*line(room, *resumed, "--closed-variant", "/Room/South{blinds=closed}")))
     assert "another scene" in error_of(run(*line(room, *resumed, "--variant", "/Room/South{blinds=closed}")))
     kept.write_bytes(kept.read_bytes()[:-9])

@@ -3,6 +3,7 @@
 import json
 import math
 
+import almanac
 import numpy as np
 import pytest
 from wea_years import HOUR, write_wea
@@ -71,12 +72,8 @@ def weather(tmp_path_factory):
 
 
 def sun():
-    """Sine of the sun's height, and whether any of its disc is up, by the formulas of Radiance's sun.c."""
-    day = np.arange(8760) // 24 + 1
-    declination = 0.4093 * np.sin(2 * np.pi / 365 * (day - 81))
-    adjusted = 0.170 * np.sin(4 * np.pi / 373 * (day - 80)) - 0.129 * np.sin(2 * np.pi / 355 * (day - 8)) + (8.55 - 15) / 15
-    turn, latitude = (HOUR + adjusted) * np.pi / 12, math.radians(49.52)
-    return math.sin(latitude) * np.sin(declination) - math.cos(latitude) * np.cos(declination) * np.cos(turn)
+    """Sine of the sun's height."""
+    return almanac.directions()[:, 2]
 
 
 def year(run, tmp_path, weather, stage, *options, grid="/Floor"):
@@ -91,12 +88,12 @@ def year(run, tmp_path, weather, stage, *options, grid="/Floor"):
     return found[0], np.load(out / f"{name}_total.npy"), np.load(out / f"{name}_direct.npy")
 
 
-@pytest.mark.parametrize("up", ["Z", "Y"])
-def test_a_level_plane_has_the_weathers_light(run, tmp_path, weather, up):
+@pytest.mark.parametrize(("up", "position"), [("Z", "true"), ("Y", "true"), ("Z", "radiance")])
+def test_a_level_plane_has_the_weathers_light(run, tmp_path, weather, up, position):
     path, direct, diffuse = weather
     stage = STAGE.format(up=up) + MATTE + level("Floor", 0, 0.5, up=up)
-    grid, total, straight = year(run, tmp_path, path, stage, "-m", 4, "-p", 256)
-    sine = sun()
+    grid, total, straight = year(run, tmp_path, path, stage, "-m", 4, "-p", 256, "--sun-position", position)
+    sine = sun() if position == "true" else almanac.of_radiance()[:, 2]
     high = sine > math.sin(math.radians(1))
     assert straight[:, high] == pytest.approx(np.tile(direct[high] * sine[high], (4, 1)), rel=2e-3, abs=1)
     assert straight[:, sine < -0.01].max() == 0

@@ -11,4 +11,8 @@ pub struct Chunk<'a> {
     pub without: Option<usize>,
     /// The sun alone, through open blinds; `None` where it is not known.
     pub direct: Option<&'a [f32]>,
+    /// The sun alone, with blinds as they are operated; `None` where it is not known.
+    pub sun: Option<&'a [f32]>,
+    /// By group of windows, in which of the steps its blinds are closed; empty where they never are.
+    pub closed: &'a [Vec<bool>],
 }

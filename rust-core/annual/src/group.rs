@@ -1,6 +1,6 @@
 //! Groups of windows and their blinds.
 
-use crate::{Coefficients, Schedule};
+use crate::{Coefficients, Schedule, error::Result, year::Year};
 
 /// What blinds leave of a group's light when they are closed.
 #[derive(Clone, Debug)]
@@ -36,4 +36,35 @@ pub struct Group {
     pub blinds: Option<Blinds>,
     /// When they are closed, as if that were when a room is used; `None` leaves it to direct sun.
     pub closed: Option<Schedule>,
+}
+
+impl Group {
+    /// The same by the means of all independent estimates.
+    pub(crate) fn mean(&self) -> Self {
+        let mean = |of: &Coefficients| Coefficients { blocks: vec![of.mean(None)], ..of.clone() };
+        let of = |of: &Option<Coefficients>| of.as_ref().map(mean);
+        let blinds = |blinds: &Blinds| match blinds {
+            Blinds::Share(share) => Blinds::Share(*share),
+            Blinds::Coefficients(all) => Blinds::Coefficients(mean(all)),
+            Blinds::Traced { all, scattered, suns } => Blinds::Traced { all: mean(all), scattered: mean(scattered), suns: mean(suns) },
+        };
+        Self {
+            open: mean(&self.open),
+            direct: of(&self.direct),
+            sun: of(&self.sun),
+            scattered: of(&self.scattered),
+            blinds: self.blinds.as_ref().map(blinds),
+            closed: self.closed.clone(),
+        }
+    }
+
+    /// Closed in these steps, whatever direct sun does.
+    pub(crate) fn closed_in(mut self, year: &Year, steps: &[bool]) -> Result<Self> {
+        if self.blinds.is_some() && steps.contains(&true) {
+            self.closed = Some(Schedule::new(year, steps.to_vec())?);
+        } else {
+            (self.blinds, self.closed) = (None, None);
+        }
+        Ok(self)
+    }
 }

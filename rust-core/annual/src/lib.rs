@@ -35,7 +35,7 @@ pub use division::{Division, FINEST, Patch};
 pub use electric::{Control, Electric, ElectricLight, Sensor};
 pub use error::AnnualError;
 pub use evaluate::{Settings, evaluate};
-pub use glare::{EyeGlare, GlareYear, SkyView, dgp, dgp_low_light};
+pub use glare::{EyeGlare, Eyes, GlareYear, Sight, Surfaces, dgp, dgp_low_light, sights};
 pub use group::{Blinds, Group};
 pub use metrics::{AreaErrors, En17037, En17037Errors, Grid, GridErrors, Level, Method, Point};
 pub use position_index::position_index;

@@ -1,4 +1,4 @@
-//! Where the sun stands by Radiance's formulas (`sun.c`), which `gendaymtx` places its suns by: within about a degree of the true place.
+//! Where the sun stands: here by Radiance's formulas (`sun.c`), which `gendaymtx` places its suns by, within about a degree of the true place.
 
 use std::f64::consts::{PI, TAU};
 
@@ -11,7 +11,7 @@ pub(crate) const MONTHS: [u32; 12] = [31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30
 /// Where the sun's centre stands, in radians.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sun {
-    /// Above the horizon, without refraction.
+    /// Above the horizon; Radiance's formulas know no refraction, true places have it.
     pub altitude: f64,
     /// From north, clockwise seen from above.
     pub azimuth: f64,

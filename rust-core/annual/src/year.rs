@@ -27,13 +27,15 @@ pub struct Step {
     pub hour: f64,
     /// 1 to 366.
     pub day_of_year: u32,
+    /// In which it was measured, where the file tells.
+    pub calendar_year: Option<i32>,
     /// Of the sun's disc, as [`Year::quantities`] says.
     pub direct: f64,
     /// Of the sky on a level surface, as [`Year::quantities`] says.
     pub diffuse: f64,
     /// Mean dew point of this step and the two before it, °C; [`crate::USUAL_DEW_POINT_C`] where the file tells none.
     pub dew_point_c: f64,
-    /// The sun in the middle of the interval.
+    /// The sun: by Radiance's formulas in the middle of the interval, unless [`Year::under`] has put it elsewhere.
     pub sun: Sun,
 }
 
@@ -46,6 +48,10 @@ pub struct Year {
     pub latitude_deg: f64,
     /// Degrees, east positive.
     pub longitude_deg: f64,
+    /// Metres above the sea.
+    pub elevation_m: f64,
+    /// Hours that the file's clock is ahead of universal time.
+    pub utc_offset_h: f64,
     /// What the numbers of the steps are.
     pub quantities: Quantities,
     /// Hours of a step: 1, or a part of it.
@@ -54,6 +60,8 @@ pub struct Year {
     pub steps: Vec<Step>,
     /// What makes one doubt the file, one sentence each.
     pub doubts: Vec<String>,
+    /// Of the steps in the file.
+    lines: Vec<u64>,
 }
 
 impl Year {
@@ -86,6 +94,7 @@ impl Year {
                 day: hour.day,
                 hour: hour.hour,
                 day_of_year,
+                calendar_year: hour.year,
                 direct: hour.direct_normal,
                 diffuse: hour.diffuse_horizontal,
                 dew_point_c: dew_points.mean(hour.dew_point_c),
@@ -102,11 +111,22 @@ impl Year {
             place: weather.place.clone(),
             latitude_deg: weather.latitude_deg,
             longitude_deg: weather.longitude_deg,
+            elevation_m: weather.elevation_m,
+            utc_offset_h: weather.utc_offset_h,
             quantities: weather.quantities,
             step_hours: 24.0 / a_day as f64,
             steps,
             doubts,
+            lines: lines.to_vec(),
         })
+    }
+
+    /// The same year under suns that stand elsewhere, one for each step.
+    #[must_use]
+    pub fn under(mut self, suns: &[Sun]) -> Self {
+        self.steps.iter_mut().zip(suns).for_each(|(step, sun)| step.sun = *sun);
+        self.doubts = doubts(&self.steps, &self.lines, self.quantities);
+        self
     }
 
     /// A year without steps.
@@ -115,10 +135,13 @@ impl Year {
             place: String::new(),
             latitude_deg: 0.0,
             longitude_deg: 0.0,
+            elevation_m: 0.0,
+            utc_offset_h: 0.0,
             quantities: Quantities::default(),
             step_hours: 1.0,
             steps: Vec::new(),
             doubts: Vec::new(),
+            lines: Vec::new(),
         }
     }
 

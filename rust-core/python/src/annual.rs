@@ -11,7 +11,7 @@ use crate::{
 };
 use gonio::{
     Error,
-    annual::{AnnualGrid, AnnualTask, Checkpoints, told, trace},
+    annual::{AnnualGrid, AnnualTask, Checkpoints, SunPositions, told, trace},
     measure::{MOST_BOUNCES, Watch},
     scene::{Integrator, Scene as Description},
     sky::{Frame, SkyModel},
@@ -121,13 +121,13 @@ impl AnnualReading {
 /// weather: the bytes of an EPW or WEA file of a whole year; division: Reinhart's of the sky, 1 to 6; schedule: hours of use of every day, or 0 or 1
 /// for each step; groups: windows whose blinds are operated together, a dictionary of names and prims (one or several, each with all below it) through which
 /// their light comes; blinds: share of light that closed blinds let through; closed: the scene with closed blinds, in place of that share; closed_hours: when
-/// they are closed, as a schedule, in place of direct sun closing them; each of these three of all groups, or a dictionary by name; sky: perez, or cie1 to cie16; ground: albedo; dew_point: °C; up and north: the scene's axis, and degrees clockwise of true north; lighting: the lamps whose energy
+/// they are closed, as a schedule, in place of direct sun closing them; each of these three of all groups, or a dictionary by name; sky: perez, or cie1 to cie16; sun_position: "true", or "radiance" for where gendaymtx has the sun; ground: albedo; dew_point: °C; up and north: the scene's axis, and degrees clockwise of true north; lighting: the lamps whose energy
 /// beside daylight is asked for (LENI), a dictionary of power_w_m2, target_lx, control ("dimming" or "switching"), least, sensor ("least", "mean" or
 /// "points"), presence and standby_kwh_m2; checkpoint: a file that keeps finished rounds, once a minute and at the end; resume: whether to go on with it
 /// where it is there; part: one part alone, such as (3, 4), is traced into it, and there are no readings; merge: the parts' checkpoints, whose rounds are
 /// taken in place of tracing.
 #[pyfunction]
-#[pyo3(signature = (scene, weather, *, samples = 8192, division = 2, schedule = None, groups = None, blinds = None, closed = None, closed_hours = None, sky = "perez", ground = 0.2, dew_point = None, up = "Z", north = 0.0, lighting = None, checkpoint = None, resume = false, part = None, merge = None, cancelled = None))]
+#[pyo3(signature = (scene, weather, *, samples = 8192, division = 2, schedule = None, groups = None, blinds = None, closed = None, closed_hours = None, sky = "perez", sun_position = "true", ground = 0.2, dew_point = None, up = "Z", north = 0.0, lighting = None, checkpoint = None, resume = false, part = None, merge = None, cancelled = None))]
 #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
 pub(crate) fn annual(
     py: Python<'_>,
@@ -141,6 +141,7 @@ pub(crate) fn annual(
     closed: Option<&Bound<'_, PyAny>>,
     closed_hours: Option<&Bound<'_, PyAny>>,
     sky: &str,
+    sun_position: &str,
     ground: f64,
     dew_point: Option<f64>,
     up: &str,
@@ -152,7 +153,8 @@ pub(crate) fn annual(
     merge: Option<Vec<PathBuf>>,
     cancelled: Option<Py<PyAny>>,
 ) -> PyResult<Vec<AnnualReading>> {
-    let year = Year::read(Path::new("weather"), weather).map_err(|error| exception(told(error)))?;
+    let positions = SunPositions::parse(sun_position).map_err(exception)?;
+    let year = positions.read(Path::new("weather"), weather).map_err(exception)?;
     let schedule = used_steps(schedule, &year)?;
     let (facades, closed) = Said { groups, blinds, closed, closed_hours }.facades(&year, samples)?;
     let sky = SkyOptions { model: model(sky)?, ground, dew_point_c: dew_point, ..SkyOptions::default() };

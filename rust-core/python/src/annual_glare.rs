@@ -6,20 +6,21 @@ use crate::{
     daylight::up_axis,
     description,
     error::{self, exception},
+    facades::Said,
     scene::Scene,
     watched::{unless, watched},
 };
 use gonio::{
     Error,
-    annual::{AnnualTask, told},
-    annual_glare::{Eye, trace_eyes},
-    measure::Watch,
-    scene::Origin,
+    annual::{AnnualTask, SunPositions, told},
+    annual_glare::{Eye, GlareTask, closes_by_sun, trace_eyes},
+    measure::{GridPoints, Watch},
+    scene::{Measurand, Meter, Origin, Scene as Description},
     sky::Frame,
 };
-use gonio_annual::{EyeGlare, GlareYear, Settings, Year, sky::SkyOptions};
+use gonio_annual::{EyeGlare, GlareYear, Settings, sky::SkyOptions};
 use gonio_simd::Execution;
-use pyo3::prelude::*;
+use pyo3::{prelude::*, types::PyDict};
 use std::path::Path;
 
 /// A year of daylight glare at one eye.
@@ -29,6 +30,7 @@ pub(crate) struct AnnualGlareReading {
     glare: EyeGlare,
     errors: Option<EyeGlare>,
     values: Vec<f32>,
+    closed_hours: Vec<f64>,
     diagnostics: Vec<(String, String)>,
 }
 
@@ -64,6 +66,11 @@ impl AnnualGlareReading {
     fn en17037(&self) -> &'static str {
         self.glare.level()
     }
+    /// By group of windows, used hours with its blinds closed; empty without blinds.
+    #[getter]
+    fn closed_hours(&self) -> Vec<f64> {
+        self.closed_hours.clone()
+    }
     /// DGP of every step of the weather file, 0 in the dark: (steps,).
     #[getter]
     fn values(&self) -> Array {
@@ -75,9 +82,10 @@ impl AnnualGlareReading {
 }
 
 /// Rates daylight glare over a year for eyes, pairs of a position in metres and where they look, `samples` paths each: one reading an eye. Lamps are dark, sky
-/// and sun give way to the weather's; blinds are as the scene has them. The other arguments are those of `annual`.
+/// and sun give way to the weather's. surfaces: whether bright ones are sources of glare too, by luminances of 577 directions before each eye. The other arguments are those of `annual`; where direct sun closes blinds it does so by the scene's grids that measure
+/// illuminance.
 #[pyfunction]
-#[pyo3(signature = (scene, weather, eyes, *, samples = 8192, division = 4, schedule = None, sky = "perez", ground = 0.2, dew_point = None, up = "Z", north = 0.0, cancelled = None))]
+#[pyo3(signature = (scene, weather, eyes, *, samples = 8192, division = 4, schedule = None, groups = None, blinds = None, closed = None, closed_hours = None, surfaces = false, sky = "perez", sun_position = "true", ground = 0.2, dew_point = None, up = "Z", north = 0.0, cancelled = None))]
 #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
 pub(crate) fn annual_glare(
     py: Python<'_>,
@@ -87,15 +95,23 @@ pub(crate) fn annual_glare(
     samples: u32,
     division: u32,
     schedule: Option<&Bound<'_, PyAny>>,
+    groups: Option<&Bound<'_, PyDict>>,
+    blinds: Option<&Bound<'_, PyAny>>,
+    closed: Option<&Bound<'_, PyAny>>,
+    closed_hours: Option<&Bound<'_, PyAny>>,
+    surfaces: bool,
     sky: &str,
+    sun_position: &str,
     ground: f64,
     dew_point: Option<f64>,
     up: &str,
     north: f64,
     cancelled: Option<Py<PyAny>>,
 ) -> PyResult<Vec<AnnualGlareReading>> {
-    let year = Year::read(Path::new("weather"), weather).map_err(|error| exception(told(error)))?;
+    let positions = SunPositions::parse(sun_position).map_err(exception)?;
+    let year = positions.read(Path::new("weather"), weather).map_err(exception)?;
     let schedule = used_steps(schedule, &year)?;
+    let (facades, closed) = Said { groups, blinds, closed, closed_hours }.facades(&year, samples)?;
     let sky = SkyOptions { model: model(sky)?, ground, dew_point_c: dew_point, ..SkyOptions::default() };
     let scene = measured(&scene.scene, samples);
     let named = |(number, (position, facing)): (usize, ([f64; 3], [f64; 3]))| Eye {
@@ -104,25 +120,36 @@ pub(crate) fn annual_glare(
         facing,
     };
     let eyes: Vec<Eye> = eyes.into_iter().enumerate().map(named).collect();
-    let task =
-        AnnualTask { year: &year, frame: Frame { up_axis: up_axis(up)?, north_deg: north }, factor: division, facades: &[], closed: &[] };
+    let frame = Frame { up_axis: up_axis(up)?, north_deg: north };
+    let task = AnnualTask { year: &year, frame, factor: division, facades: &facades, closed: &closed };
     let ask = |py: Python<'_>, _: Option<&gonio::render::Progress>| unless(py, cancelled.as_ref());
     watched(py, ask, |stop, progress| {
         if eyes.is_empty() {
             return Ok(Vec::new());
         }
-        let traced = trace_eyes(&scene, &eyes, &task, Execution::detect(), &mut Watch { previous: None, cancel: stop, progress })?;
+        let floor = if closes_by_sun(&facades) { floor(&scene)? } else { Vec::new() };
+        let glare = GlareTask { eyes: &eyes, floor: &floor, surfaces };
+        let traced = trace_eyes(&scene, &glare, &task, Execution::detect(), &mut Watch { previous: None, cancel: stop, progress })?;
         let settings = Settings { sky, memory: crate::annual::MEMORY, threads: gonio::threads::available_threads(), electric: None };
         let diagnostics = error::told(&traced.diagnostics);
-        let found =
-            GlareYear::new(&year, &schedule, (traced.views, traced.group), &settings, &|| true).map_err(told)?.ok_or(Error::Cancelled)?;
+        let found = GlareYear::new(&year, &schedule, &traced.eyes, &settings, &|| true).map_err(told)?.ok_or(Error::Cancelled)?;
         let reading = |(number, (eye, (glare, errors))): (usize, (Eye, (EyeGlare, Option<EyeGlare>)))| AnnualGlareReading {
             eye,
             glare,
             errors,
             values: found.values(number).to_vec(),
+            closed_hours: found.closed_hours().to_vec(),
             diagnostics: diagnostics.clone(),
         };
         Ok(eyes.iter().cloned().zip(found.glare(&schedule)).enumerate().map(reading).collect())
     })
+}
+
+/// The points of a scene's grids that measure illuminance.
+fn floor(scene: &Description) -> Result<Vec<Meter>, Error> {
+    let mut points = Vec::new();
+    for grid in scene.grids.iter().filter(|grid| grid.eyes.is_none() && grid.measurand == Measurand::Illuminance) {
+        points.extend(GridPoints::new(scene, grid)?.planes(grid));
+    }
+    Ok(points)
 }

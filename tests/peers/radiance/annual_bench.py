@@ -21,7 +21,7 @@ import measured_by  # noqa: E402
 import numpy  # noqa: E402
 import radiance_office  # noqa: E402
 
-GRID = ("--grid", "/Floor", "--height", "0.8", "--spacing", "0.45")
+GRID = ("--grid", "/Floor", "--height", "0.8", "--spacing", "0.45", "--sun-position", "radiance")
 # Hours in which a point has less are left out: their relative errors say nothing.
 LEAST_LUX = 50.0
 DIVISION = 2

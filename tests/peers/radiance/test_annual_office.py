@@ -33,7 +33,7 @@ def test_an_office_has_radiances_year(run, radiance, tmp_path):
     (tmp_path / "office.usda").write_text(radiance_office.stage())
     (tmp_path / "room.rad").write_text(radiance_office.room())
     (tmp_path / "sky.rad").write_text(radiance_office.SKY)
-    grid = ("--grid", "/Floor", "--height", 0.8, "--spacing", 0.45, "-m", 2)
+    grid = ("--grid", "/Floor", "--height", 0.8, "--spacing", 0.45, "-m", 2, "--sun-position", "radiance")
     done = run("annual", tmp_path / "office.usda", "--weather", tmp_path / "year.wea", *grid, "-p", 16384, "-q", "--json", timeout=600)
     assert done.returncode == 0, done.stderr
     ours = json.loads(done.stdout)["grids"][0]

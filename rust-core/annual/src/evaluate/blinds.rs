@@ -32,7 +32,7 @@ impl GroupLight {
 }
 
 /// By group, in which steps its blinds are closed; `closed` gives what then comes in, asked for when any step wants it.
-pub(super) fn operated(groups: &[GroupLight], steps: usize, closed: impl Fn(usize) -> Vec<f32>) -> Vec<Option<Operated>> {
+pub(super) fn operated(groups: &[GroupLight], steps: usize, closed: impl Fn(usize) -> ClosedLight) -> Vec<Option<Operated>> {
     let operable: Vec<usize> = (0..groups.len()).filter(|group| groups[*group].is_operable()).collect();
     let too_sunny = too_sunny(groups, steps);
     let scheduled = |(number, group): (usize, &GroupLight)| {
@@ -56,10 +56,18 @@ pub(super) fn operated(groups: &[GroupLight], steps: usize, closed: impl Fn(usiz
     found
 }
 
+/// What closed blinds let in, at `[point][step]` in lx.
+pub(super) struct ClosedLight {
+    /// All light.
+    pub(super) all: Vec<f32>,
+    /// Of the sun alone; none where it is not known.
+    pub(super) sun: Option<Vec<f32>>,
+}
+
 /// A group whose blinds may be closed.
 pub(super) struct Operated {
     /// What closed ones let in.
-    pub(super) light: Vec<f32>,
+    pub(super) light: ClosedLight,
     /// In which steps they are.
     pub(super) steps: Vec<bool>,
 }
@@ -94,8 +102,9 @@ impl Step {
     fn new(groups: &[GroupLight], closed: &[Option<Operated>], steps: usize, step: usize) -> Self {
         let column = |rows: &[f32]| -> Vec<f32> { rows.iter().skip(step).step_by(steps).copied().collect() };
         let sum = |rows: &[f32]| column(rows).into_iter().map(f64::from).sum::<f64>();
-        let cost =
-            |(group, closed): (&GroupLight, &Option<Operated>)| closed.as_ref().map_or(0.0, |closed| sum(&group.open) - sum(&closed.light));
+        let cost = |(group, closed): (&GroupLight, &Option<Operated>)| {
+            closed.as_ref().map_or(0.0, |closed| sum(&group.open) - sum(&closed.light.all))
+        };
         Self {
             suns: groups
                 .iter()
@@ -167,7 +176,7 @@ mod tests {
     }
 
     fn which(groups: &[GroupLight]) -> Vec<bool> {
-        let found = operated(groups, 1, |group| vec![0.1 * groups[group].open[0]; 100]);
+        let found = operated(groups, 1, |group| ClosedLight { all: vec![0.1 * groups[group].open[0]; 100], sun: None });
         found.iter().map(|found| found.as_ref().is_some_and(|found| found.steps[0])).collect()
     }
 

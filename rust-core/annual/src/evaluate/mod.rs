@@ -1,6 +1,7 @@
 //! A year at the points of a grid: chunks of steps go through sky, product and metrics, so that memory does not grow with the year.
 
 mod blinds;
+mod closed;
 mod columns;
 mod prepared;
 mod shape;
@@ -16,6 +17,7 @@ use crate::{
     sky::{Light, Quantity, SkyMatrix, SkyOptions},
     year::Year,
 };
+pub(crate) use closed::closed_steps;
 use prepared::Prepared;
 
 /// Fewest steps of a chunk.
@@ -64,7 +66,8 @@ pub fn evaluate(
         let columns = columns::Columns::new(&skies, groups, &shape, steps, settings.threads);
         for (index, (prepared, counts)) in variants.iter_mut().enumerate() {
             let light = prepared::light(prepared, &columns, settings.threads);
-            let chunk = Chunk { steps, total: &light.total, direct: light.direct.as_deref(), without: index.checked_sub(1) };
+            let (direct, sun) = (light.direct.as_deref(), light.sun.as_deref());
+            let chunk = Chunk { steps, total: &light.total, direct, sun, closed: &light.closed, without: index.checked_sub(1) };
             if !take(&chunk) {
                 return Ok(None);
             }

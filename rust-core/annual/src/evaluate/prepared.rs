@@ -1,7 +1,7 @@
 //! What light groups of windows let in, and when their blinds are closed.
 
 use super::{
-    blinds::{GroupLight, Operated, operated},
+    blinds::{ClosedLight, GroupLight, operated},
     columns::Columns,
 };
 use crate::{
@@ -83,6 +83,8 @@ pub(super) struct Light {
     pub(super) total: Vec<f32>,
     /// Of the sun alone through open ones.
     pub(super) direct: Option<Vec<f32>>,
+    /// Of the sun alone with blinds as they are operated.
+    pub(super) sun: Option<Vec<f32>>,
     /// By group, in which steps its blinds are closed; empty where they never are.
     pub(super) closed: Vec<Vec<bool>>,
 }
@@ -91,21 +93,32 @@ pub(super) struct Light {
 pub(super) fn light(groups: &[Prepared], columns: &Columns, threads: usize) -> Light {
     let steps = columns.suns.len();
     let open: Vec<GroupLight> = groups.iter().map(|group| group.open_light(columns, threads)).collect();
-    let operated = operated(&open, steps, |group| groups[group].closed_light(&open[group].open, columns, threads));
+    let operated = operated(&open, steps, |group| groups[group].closed_light(&open[group], columns, threads));
     let knows_sun = open.iter().all(|group| group.direct.is_some());
-    let (mut total, mut direct, mut closed): (Vec<f32>, Option<Vec<f32>>, Vec<Vec<bool>>) = Default::default();
-    for (GroupLight { open: mut light, direct: of_sun, .. }, operated) in open.into_iter().zip(operated) {
+    let [mut totals, mut directs, mut suns]: [Vec<Vec<f32>>; 3] = Default::default();
+    let mut closed = Vec::with_capacity(groups.len());
+    for (GroupLight { open: mut light, direct, .. }, operated) in open.into_iter().zip(operated) {
+        let mut sun = direct.clone();
         closed.push(operated.map_or_else(Vec::new, |operated| {
-            close(&mut light, &operated);
+            close(&mut light, &operated.light.all, &operated.steps);
+            sun = sun.take().zip(operated.light.sun).map(|(mut sun, closed)| {
+                close(&mut sun, &closed, &operated.steps);
+                sun
+            });
             operated.steps
         }));
-        total = if total.is_empty() { light } else { sum(total, &light) };
-        direct = match (direct, of_sun) {
-            (Some(others), Some(of_sun)) => Some(sum(others, &of_sun)),
-            (others, of_sun) => others.or(of_sun),
-        };
+        totals.push(light);
+        directs.extend(direct);
+        suns.extend(sun);
     }
-    Light { total, direct: direct.filter(|_| knows_sun), closed }
+    let knows_seen_sun = suns.len() == groups.len();
+    let all = |parts: Vec<Vec<f32>>| parts.into_iter().reduce(|to, other| sum(to, &other));
+    Light {
+        total: all(totals).unwrap_or_default(),
+        direct: all(directs).filter(|_| knows_sun),
+        sun: all(suns).filter(|_| knows_seen_sun),
+        closed,
+    }
 }
 
 impl Prepared {
@@ -122,14 +135,18 @@ impl Prepared {
     }
 
     /// Its light with blinds closed, of which `open` is that with open ones.
-    fn closed_light(&self, open: &[f32], columns: &Columns, threads: usize) -> Vec<f32> {
+    fn closed_light(&self, open: &GroupLight, columns: &Columns, threads: usize) -> ClosedLight {
+        let dimmed = |light: &[f32], share: f32| light.iter().map(|value| value * share).collect::<Vec<_>>();
         match &self.blinds {
-            Some(Closed::Share(share)) => open.iter().map(|value| value * share).collect(),
-            Some(Closed::Panels(panels)) => panels.times(&columns.all, threads),
-            Some(Closed::Traced { all, scattered, suns }) => {
-                with_sun_at_its_place([all, scattered], &suns.light(columns, threads), columns, threads)
+            Some(Closed::Share(share)) => {
+                ClosedLight { all: dimmed(&open.open, *share), sun: open.direct.as_deref().map(|direct| dimmed(direct, *share)) }
             }
-            None => open.to_vec(),
+            Some(Closed::Panels(panels)) => ClosedLight { all: panels.times(&columns.all, threads), sun: None },
+            Some(Closed::Traced { all, scattered, suns }) => {
+                let sun = suns.light(columns, threads);
+                ClosedLight { all: with_sun_at_its_place([all, scattered], &sun, columns, threads), sun: Some(sun) }
+            }
+            None => ClosedLight { all: open.open.clone(), sun: open.direct.clone() },
         }
     }
 }
@@ -145,7 +162,7 @@ fn sum(mut to: Vec<f32>, other: &[f32]) -> Vec<f32> {
 }
 
 /// Takes what closed blinds leave in the steps in which they are closed.
-fn close(light: &mut [f32], operated: &Operated) {
-    let steps = operated.steps.iter().cycle();
-    light.iter_mut().zip(&operated.light).zip(steps).filter(|(_, closed)| **closed).for_each(|((value, dimmed), _)| *value = *dimmed);
+fn close(light: &mut [f32], closed: &[f32], steps: &[bool]) {
+    let steps = steps.iter().cycle();
+    light.iter_mut().zip(closed).zip(steps).filter(|(_, closed)| **closed).for_each(|((value, dimmed), _)| *value = *dimmed);
 }

@@ -18,6 +18,7 @@ fn made_up_weather() -> Weather {
         let is_light = (8..17).contains(&hour);
         let number = |value: u32| if is_light { f64::from(value) } else { 0.0 };
         Hour {
+            year: None,
             month,
             day,
             hour: f64::from(hour) + 0.5,

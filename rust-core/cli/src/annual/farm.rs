@@ -1,5 +1,6 @@
 //! `gonio annual --dask`: the cluster traces (`gonio.farm`), the year is calculated here.
 
+use super::inputs::positions;
 use crate::{
     arguments::AnnualOptions,
     farm::{connect, failure, reporting},
@@ -48,6 +49,7 @@ fn tracing<'py>(py: Python<'py>, options: &AnnualOptions, facades: &[Facade], up
     keywords.set_item("division", options.factor)?;
     keywords.set_item("up", if up == UpAxis::Y { "Y" } else { "Z" })?;
     keywords.set_item("north", options.year.north)?;
+    keywords.set_item("sun_position", positions(&options.year).name())?;
     let scene = |facade: &Facade| match facade.blinds {
         Some(FacadeBlinds::Scene(number)) => Some(number + 1),
         _ => None,

@@ -1,10 +1,14 @@
 //! The files of `gonio annual-metrics`, and what its options make of them.
 
 use crate::{
-    arguments::{AnnualMetricsOptions, ControlArgument, LightingArguments, SensorArgument, YearArguments},
+    arguments::{AnnualMetricsOptions, ControlArgument, LightingArguments, SensorArgument, SunPositionArgument, YearArguments},
     file,
 };
-use gonio::{Error, Result, annual::told, sky::SkyModel};
+use gonio::{
+    Error, Result,
+    annual::{SunPositions, told},
+    sky::SkyModel,
+};
 use gonio_annual::{
     Blinds, Coefficients, Control, Division, ElectricLight, Group, Schedule, Sensor, Year,
     sky::{Model, SkyOptions},
@@ -27,6 +31,7 @@ pub(super) struct Named {
 #[derive(Debug)]
 pub(super) struct Inputs {
     pub(super) year: Year,
+    pub(super) positions: SunPositions,
     pub(super) schedule: Schedule,
     pub(super) grids: Vec<Named>,
 }
@@ -42,15 +47,17 @@ impl Inputs {
                 return Err(Error::setting(name, problem));
             }
         }
-        let (year, schedule) = year(&options.year, &weather(&options.year)?)?;
+        let weather = weather(&options.year)?;
         let groups = (0..options.coefficients.len()).map(|index| group(options, index)).collect::<Result<Vec<_>>>()?;
+        let positions = positions_of(&options.year, &groups)?;
+        let (year, schedule) = year(&options.year, positions, &weather)?;
         let names = grid_names(options);
         let grids = if options.groups {
             names.into_iter().take(1).map(|name| Named { name, groups: groups.clone() }).collect()
         } else {
             names.into_iter().zip(groups).map(|(name, group)| Named { name, groups: vec![group] }).collect()
         };
-        Ok(Self { year, schedule, grids })
+        Ok(Self { year, positions, schedule, grids })
     }
 }
 
@@ -59,9 +66,33 @@ pub(super) fn weather(options: &YearArguments) -> Result<Vec<u8>> {
     file::read(&options.weather, LONGEST_WEATHER, "weather file")
 }
 
+/// Where the suns of a stage's year stand.
+pub(super) fn positions(options: &YearArguments) -> SunPositions {
+    match options.sun_position {
+        None | Some(SunPositionArgument::True) => SunPositions::True,
+        Some(SunPositionArgument::Radiance) => SunPositions::Radiance,
+    }
+}
+
+/// Where the suns of coefficients stand: where Radiance has them if columns are suns.
+fn positions_of(options: &YearArguments, groups: &[Group]) -> Result<SunPositions> {
+    let has_suns = |group: &Group| {
+        let of_suns = |direct: &Coefficients| Division::of_count(direct.columns).is_none();
+        group.sun.is_some() || group.direct.as_ref().is_some_and(of_suns)
+    };
+    match options.sun_position {
+        _ if !groups.iter().any(has_suns) => Ok(positions(options)),
+        None | Some(SunPositionArgument::Radiance) => Ok(SunPositions::Radiance),
+        Some(SunPositionArgument::True) => {
+            let problem = "true was found, but columns of suns, which gendaymtx places; expected radiance";
+            Err(Error::setting("sun-position", problem))
+        }
+    }
+}
+
 /// The weather, and which of its hours are used.
-pub(super) fn year(options: &YearArguments, weather: &[u8]) -> Result<(Year, Schedule)> {
-    let year = Year::read(&options.weather, weather).map_err(told)?;
+pub(super) fn year(options: &YearArguments, positions: SunPositions, weather: &[u8]) -> Result<(Year, Schedule)> {
+    let year = positions.read(&options.weather, weather)?;
     let schedule = schedule(&options.schedule, &year)?;
     Ok((year, schedule))
 }

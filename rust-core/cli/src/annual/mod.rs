@@ -45,7 +45,7 @@ pub(super) fn annual_metrics(options: &AnnualMetricsOptions, interrupted: &Atomi
         }
         grids.push(as_json(named, &grid));
     }
-    tell_whole(&options.year, &whole(&options.year, &inputs.year, grids))?;
+    tell_whole(&options.year, &whole(&options.year, &inputs, grids))?;
     Ok(0)
 }
 
@@ -117,7 +117,8 @@ fn as_json(named: &Named, grid: &Grid) -> Value {
     value
 }
 
-fn whole(options: &YearArguments, year: &Year, grids: Vec<Value>) -> Value {
+fn whole(options: &YearArguments, inputs: &Inputs, grids: Vec<Value>) -> Value {
+    let year = &inputs.year;
     let Times { step_hours, sunrise_sunset_h } = Times::new(year);
     json!({
         "weather": options.weather.to_string_lossy(),
@@ -127,6 +128,7 @@ fn whole(options: &YearArguments, year: &Year, grids: Vec<Value>) -> Value {
         "steps": year.steps.len(),
         "step_hours": step_hours,
         "sunrise_sunset_h": sunrise_sunset_h,
+        "sun_position": inputs.positions.name(),
         "schedule": options.schedule,
         "doubts": year.doubts,
         "grids": grids,

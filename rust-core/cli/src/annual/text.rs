@@ -42,9 +42,9 @@ pub(super) fn lines(name: &str, grid: &Grid, chosen: &[Metric]) -> Vec<String> {
 }
 
 /// How long the blinds of groups of windows are closed, where there are any.
-pub(super) fn closed(facades: &[&str], grid: &Grid) -> Option<String> {
+pub(super) fn closed(facades: &[&str], hours: &[f64]) -> Option<String> {
     let told = |(name, hours): (&&str, &f64)| format!("{name}{}{hours:.0}", if name.is_empty() { "" } else { " " });
-    let told: Vec<String> = facades.iter().zip(&grid.closed_hours).map(told).collect();
+    let told: Vec<String> = facades.iter().zip(hours).map(told).collect();
     (!told.is_empty()).then(|| indented(format!("blinds closed, used hours: {}", told.join(", "))))
 }
 

@@ -49,7 +49,7 @@ struct Task<'a> {
 /// Traces the stage's grids and calculates their year.
 pub(crate) fn annual(py: Python<'_>, options: &AnnualOptions, interrupted: &'static AtomicBool) -> Result<i32> {
     let weather = inputs::weather(&options.year)?;
-    let (year, schedule) = inputs::year(&options.year, &weather)?;
+    let (year, schedule) = inputs::year(&options.year, inputs::positions(&options.year), &weather)?;
     tell_doubts(&options.year, &year);
     let (facades, states) = facades(&options.facades, &year)?;
     let Loaded { scene, diagnostics, info, .. } = load(py, options, &[], interrupted)?;
@@ -94,7 +94,9 @@ fn calculated(task: &Task<'_>, checkpoints: &Checkpoints, interrupted: &'static 
     let named = grids.iter().zip(groups).map(named).collect();
     let told: Vec<Diagnostic> = told.iter().chain(&left_out).chain(&diagnostics).cloned().collect();
     let names: Vec<&str> = facades.iter().map(|facade| facade.name.as_str()).collect();
-    finish((options, &names), &Inputs { year: year.clone(), schedule: schedule.clone(), grids: named }, (&grids, &told), interrupted)
+    let positions = inputs::positions(&options.year);
+    let inputs = Inputs { year: year.clone(), positions, schedule: schedule.clone(), grids: named };
+    finish((options, &names), &inputs, (&grids, &told), interrupted)
 }
 
 /// Where rounds are kept.
@@ -141,7 +143,7 @@ fn finish(
             written.iter().filter(|_| !options.year.json).for_each(|path| print_path(path));
         }
         if !options.year.json {
-            let closed = text::closed(facades, &grid);
+            let closed = text::closed(facades, &grid.closed_hours);
             text::lines(&named.name, &grid, &options.metrics).iter().chain(&closed).for_each(|line| print(line));
         }
         let mut json = placed(as_json(named, &grid), traced);
@@ -150,7 +152,7 @@ fn finish(
         }
         found.push(json);
     }
-    let mut whole = whole(&options.year, &inputs.year, found);
+    let mut whole = whole(&options.year, inputs, found);
     whole["diagnostics"] = diagnostics_json(told);
     tell_whole(&options.year, &whole)?;
     Ok(0)

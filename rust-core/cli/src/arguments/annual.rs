@@ -28,9 +28,11 @@ pub(super) const ANNUAL_GLARE_EXAMPLES: &str = "Examples:
   gonio annual-glare office.usda --weather mannheim.epw --eye 1.8,1.5,1.2 --facing 0,-1,0
   gonio annual-glare office.usda --weather mannheim.epw --eye 1.8,1.5,1.2 --directions 8 --json
   gonio annual-glare office.usda --weather mannheim.epw --grid /Office/Floor --spacing 1 --margin 0.5 --directions 4 -o out
+  gonio annual-glare office.usda --weather mannheim.epw --eye 1.8,1.5,1.2 --surfaces --closed-variant '/Office{blinds=closed}' --blinds-floor /Office/Floor
 
-Sources of glare are the sun and patches of the sky above 2000 cd/m², seen straight or through thin panes; what light scatters from counts at the eye alone.
-Blinds are as the stage has them: --variant chooses.";
+Sources of glare are the sun and patches of the sky above 2000 cd/m², seen straight or through thin panes; what light scatters from counts at the eye alone,
+unless --surfaces are asked for.
+Blinds that direct sun closes: --closed-variant; others are as the stage has them: --variant chooses.";
 
 /// The end of `gonio annual-metrics --help`.
 pub(super) const ANNUAL_METRICS_EXAMPLES: &str = "Examples:
@@ -54,6 +56,10 @@ pub(crate) struct YearArguments {
     /// How luminance is spread over the sky: perez (by the weather), or cie1 to cie16 with the weather's light.
     #[arg(long, value_name = "MODEL", default_value = "perez")]
     pub(crate) sky: String,
+    /// Where the sun stands: at its true place, by each record's own year, or where Radiance's formulas have it, up to 1° off, to compare with that.
+    /// annual-metrics takes 'radiance' for coefficients of suns, whose columns are those of 'gendaymtx -D'.
+    #[arg(long, value_enum)]
+    pub(crate) sun_position: Option<SunPositionArgument>,
     /// Albedo of the ground, 0 to 1.
     #[arg(long, value_name = "ALBEDO", default_value_t = 0.2, value_parser = finite::<f64>)]
     pub(crate) ground: f64,
@@ -72,6 +78,15 @@ pub(crate) struct YearArguments {
     /// Write to a folder: each grid's series, points × hours in lx as .npy, all light and direct, a CSV table of the points, plots as SVG, and year.json with what --json prints, which 'gonio report --annual' reads.
     #[arg(long, short = 'o', value_name = "FOLDER")]
     pub(crate) output: Option<PathBuf>,
+}
+
+/// Whose formulas tell where the sun stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SunPositionArgument {
+    /// At its true place, refraction included, in the middle of the part of each hour in which it is up.
+    True,
+    /// Where 'gendaymtx' has it, in the middle of each hour.
+    Radiance,
 }
 
 /// The lamps of the room, whose energy beside daylight is asked for.
@@ -209,6 +224,16 @@ pub(crate) struct AnnualGlareOptions {
     /// Where all eyes look; may be given several times. Without it they look around.
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     pub(crate) facing: Vec<String>,
+    #[command(flatten)]
+    pub(crate) facades: FacadeArguments,
+    /// The floor on which direct sun closes blinds, by points 0.76 m above it, 0.5 m apart, 0.3 m from its edges (LM-83); may be given several times. Without it
+    /// that of --grid, else the stage's own grids.
+    #[arg(long, value_name = "PRIMPATH", help_heading = "Blinds")]
+    pub(crate) blinds_floor: Vec<String>,
+    /// Bright surfaces, such as sunlit walls and blinds, are sources of glare too: luminances of 577 directions before each eye are traced besides. It takes some 20
+    /// times as long, and 45 MB an eye for each state of the blinds.
+    #[arg(long)]
+    pub(crate) surfaces: bool,
     /// So many level directions around, the first one +Y (-Z where Y is up); 4 where nothing is said.
     #[arg(long, value_name = "COUNT", conflicts_with = "facing", value_parser = count::<u32>(1..=64))]
     pub(crate) directions: Option<u32>,

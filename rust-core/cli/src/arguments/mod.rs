@@ -36,7 +36,7 @@ mod work;
 
 pub(super) use annual::{
     AnnualGlareOptions, AnnualMetricsOptions, AnnualOptions, ControlArgument, FacadeArguments, LightingArguments, MetricArgument,
-    SensorArgument, YearArguments,
+    SensorArgument, SunPositionArgument, YearArguments,
 };
 pub(super) use bench::BenchOptions;
 pub(super) use bsdf::{BsdfOptions, SampleArguments};

@@ -65,7 +65,7 @@ impl Traced {
         } else if other.openings != self.openings {
             format!("it tells light apart by the groups {:?}, {:?} were asked for", other.openings, self.openings)
         } else if other.suns != self.suns {
-            "its suns stand elsewhere: it is of weather of another place, or north was another".to_owned()
+            "its suns stand elsewhere: it is of weather of another place, or north or the sun's position were others".to_owned()
         } else {
             return self.stamp.check(&other.stamp, path, &[]);
         };

@@ -7,23 +7,28 @@ mod file;
 mod grid;
 mod keeper;
 mod sky;
+mod suns;
+#[cfg(test)]
+mod tests;
+mod traced;
 
 pub use facade::{Facade, FacadeBlinds};
 pub use grid::AnnualGrid;
 pub use keeper::Checkpoints;
+pub use suns::SunPositions;
 
 use crate::{
     error::{Diagnostic, Error, Result},
-    measure::{DaylightCoefficients, Keeping, Kept, Watch, daylight_coefficients, trace_rounds},
+    measure::{DaylightCoefficients, Keeping, Kept, Watch, trace_rounds},
     scene::{Meter, Scene},
     sky::Frame,
 };
 use file::Traced;
-use gonio_annual::{AnnualError, Blinds, Coefficients, Group, Year};
+use gonio_annual::{AnnualError, Group, Year};
 use gonio_simd::Execution;
 use keeper::Keeper;
-use sky::under_sky;
-use std::ops::Range;
+pub(crate) use sky::under_sky;
+pub(crate) use traced::PointsTraced;
 
 /// What is traced.
 #[derive(Clone, Debug)]
@@ -61,56 +66,33 @@ pub fn trace(
     execution: Execution,
     watch: &mut Watch<'_>,
 ) -> Result<GridsTraced> {
-    facade::check(scene, task.facades)?;
     let points: Vec<Meter> = grids.iter().flat_map(AnnualGrid::meters).collect();
-    let scenes: Vec<&Scene> = std::iter::once(scene).chain(task.closed).collect();
-    let (kept, diagnostics) = rounds(&scenes, &points, (task, checkpoints), execution, watch)?;
+    let traced = trace_points(scene, &points, (task, checkpoints), execution, watch)?;
     if checkpoints.part.is_some() {
-        return Ok(GridsTraced { groups: None, diagnostics });
+        return Ok(GridsTraced { groups: None, diagnostics: traced.diagnostics });
     }
-    let traced: Vec<DaylightCoefficients> = kept.into_iter().map(DaylightCoefficients::from).collect();
     let mut first = 0;
     let groups = |grid: &AnnualGrid| {
         let rows = first..first + grid.positions.len();
         first = rows.end;
-        groups(&traced, (points.len(), rows), task.facades)
+        traced.groups(rows, task.facades)
     };
-    Ok(GridsTraced { groups: Some(grids.iter().map(groups).collect::<Result<_>>()?), diagnostics })
+    let groups = grids.iter().map(groups).collect::<Result<_>>()?;
+    Ok(GridsTraced { groups: Some(groups), diagnostics: traced.diagnostics })
 }
 
-/// The groups of windows of a grid's rows, which are some of all points.
-fn groups(traced: &[DaylightCoefficients], (points, rows): (usize, Range<usize>), facades: &[Facade]) -> Result<Vec<Group>> {
-    let are_told_apart = facades.iter().any(|facade| !facade.prims.is_empty());
-    let parts = if are_told_apart { facades.len() + 1 } else { 1 };
-    let of_part = |rounds: &[Vec<f32>], part: usize| matrix(rounds, parts * points, part * points + rows.start..part * points + rows.end);
-    let group = |part: usize, facade: Option<&Facade>| {
-        let open = &traced[0];
-        let suns = |of: &DaylightCoefficients| of_part(std::slice::from_ref(&of.suns), part);
-        let closed = |closed: &DaylightCoefficients| {
-            let [all, scattered] = [of_part(&closed.all, part)?, of_part(&closed.scattered, part)?];
-            Ok(Blinds::Traced { all, scattered, suns: suns(closed)? })
-        };
-        let blinds = match facade.and_then(|facade| facade.blinds) {
-            Some(FacadeBlinds::Share(share)) => Some(Blinds::Share(share)),
-            Some(FacadeBlinds::Scene(number)) => traced.get(number + 1).map(closed).transpose()?,
-            None => None,
-        };
-        Ok(Group {
-            open: of_part(&open.all, part)?,
-            scattered: Some(of_part(&open.scattered, part)?),
-            direct: Some(suns(open)?),
-            sun: None,
-            blinds,
-            closed: facade.and_then(|facade| facade.closed.clone()),
-        })
-    };
-    if !are_told_apart {
-        return Ok(vec![group(0, facades.first())?]);
-    }
-    let rest = group(0, None)?;
-    let is_lit = |of: &Coefficients| of.blocks.iter().flatten().any(|value| *value > 0.0);
-    let facades = facades.iter().enumerate().map(|(place, facade)| group(place + 1, Some(facade)));
-    facades.chain(is_lit(&rest.open).then_some(Ok(rest))).collect()
+/// Traces points in the scene and in those with closed blinds.
+pub(crate) fn trace_points(
+    scene: &Scene,
+    points: &[Meter],
+    (task, checkpoints): (&AnnualTask<'_>, &Checkpoints),
+    execution: Execution,
+    watch: &mut Watch<'_>,
+) -> Result<PointsTraced> {
+    facade::check(scene, task.facades)?;
+    let scenes: Vec<&Scene> = std::iter::once(scene).chain(task.closed).collect();
+    let (kept, diagnostics) = rounds(&scenes, points, (task, checkpoints), execution, watch)?;
+    Ok(PointsTraced { states: kept.into_iter().map(DaylightCoefficients::from).collect(), points: points.len(), diagnostics })
 }
 
 /// By scene what is found in it: what checkpoints have and what is traced.
@@ -151,24 +133,6 @@ fn rounds(
         Ok(all)
     })?;
     Ok((kept, diagnostics))
-}
-
-/// The coefficients of all points in a scene.
-pub(crate) fn coefficients(
-    scene: &Scene,
-    points: &[Meter],
-    task: &AnnualTask<'_>,
-    execution: Execution,
-    watch: &mut Watch<'_>,
-) -> Result<DaylightCoefficients> {
-    under_sky(task, points.len(), |sky| daylight_coefficients(scene, points, sky, execution, watch))
-}
-
-/// Rows of some of all points, in all rounds.
-pub(crate) fn matrix(rounds: &[Vec<f32>], all: usize, rows: Range<usize>) -> Result<Coefficients> {
-    let columns = rounds.first().map_or(0, Vec::len) / all.max(1);
-    let blocks = rounds.iter().map(|round| round[rows.start * columns..rows.end * columns].to_vec()).collect();
-    Coefficients::new(rows.len(), columns, blocks).map_err(|error| Error::setting("grids", error.to_string()))
 }
 
 /// A year's error as one of the scene's.

@@ -17,7 +17,7 @@ const MOST_BYTES: f64 = 16e9;
 const TOLD_BY: usize = 512;
 
 /// Does something with the sky and the suns of a task, for so many points.
-pub(super) fn under_sky<T>(task: &AnnualTask<'_>, points: usize, then: impl FnOnce(&SkyTask<'_>) -> Result<T>) -> Result<T> {
+pub(crate) fn under_sky<T>(task: &AnnualTask<'_>, points: usize, then: impl FnOnce(&SkyTask<'_>) -> Result<T>) -> Result<T> {
     let AnnualTask { year, frame, factor, .. } = task;
     let division = Division::new(*factor).ok_or_else(|| Error::setting("factor", format!("{factor} was found, expected 1 to 6")))?;
     let patches = division.patches().len();

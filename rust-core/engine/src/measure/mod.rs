@@ -28,9 +28,7 @@ mod watch;
 #[cfg(test)]
 mod tests;
 
-pub use coefficients::{
-    DaylightCoefficients, Keeping, Kept, ROUNDS, Round, SkyTask, daylight_coefficients, is_of, sun_coefficients, trace_rounds,
-};
+pub use coefficients::{DaylightCoefficients, Keeping, Kept, ROUNDS, Round, SkyTask, is_of, sun_coefficients, trace_rounds};
 pub use csv::{csv, quoted};
 pub use eyes::{EyeReadings, around};
 pub use grid_reading::GridReading;

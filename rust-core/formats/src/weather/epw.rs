@@ -8,6 +8,8 @@ use crate::photometry::text::{Lines, parse, quote};
 const MISSING: [f64; 2] = [9999.0, 99.9];
 /// Intervals an hour, at most.
 const MOST_INTERVALS: u32 = 60;
+/// Years that radiation may have been measured in, or be foretold for.
+const YEARS: std::ops::RangeInclusive<f64> = 1800.0..=2200.0;
 
 /// The rest of the file from its first line on.
 pub(super) fn read(lines: Lines<'_>) -> Result<Weather> {
@@ -40,7 +42,8 @@ fn location((line, text): (u64, &str)) -> Result<Weather> {
 fn hour(line: u64, text: &str, intervals: u32) -> Result<Hour> {
     let mut fields = text.split(',');
     let mut next = |skipped: usize| fields.nth(skipped);
-    let month = whole(line, "the month", next(1), 1..=12)?;
+    let year = next(0).and_then(|token| parse(token.trim())).filter(|year| YEARS.contains(year));
+    let month = whole(line, "the month", next(0), 1..=12)?;
     let day = whole(line, "the day", next(0), 1..=31)?;
     let hour = whole(line, "the hour", next(0), 1..=24)?;
     let minute = whole(line, "the minute", next(0), 0..=60)?;
@@ -50,6 +53,7 @@ fn hour(line: u64, text: &str, intervals: u32) -> Result<Hour> {
     // Records end at their minute; hourly ones say 0 or 60 for the full hour.
     let end = if intervals == 1 || minute == 0 { 1.0 } else { f64::from(minute) / 60.0 };
     Ok(Hour {
+        year: year.map(|year| year as i32),
         month,
         day,
         hour: (f64::from(hour) - 1.0 + end - 0.5 / f64::from(intervals)).max(0.0),

@@ -47,6 +47,8 @@ pub enum Quantities {
 /// One record: means over an interval of time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Hour {
+    /// In which it was measured: years made up of months have several. WEA files tell none, nor do files with numbers that cannot be one.
+    pub year: Option<i32>,
     /// 1 to 12.
     pub month: u32,
     /// 1 to 31.

@@ -84,6 +84,7 @@ fn hour(line: u64, text: &str, quantities: Quantities) -> Result<Hour> {
     };
     let mut fields = text.split_whitespace();
     Ok(Hour {
+        year: None,
         month: whole(line, "the month", fields.next(), 1..=12)?,
         day: whole(line, "the day", fields.next(), 1..=31)?,
         hour: number(line, "the hour", fields.next(), 0.0..=LAST_HOUR)?,

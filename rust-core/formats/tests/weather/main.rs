@@ -85,7 +85,8 @@ fn decimal_commas_are_refused_by_their_line() {
 fn an_epw_file_is_read() {
     let weather = read(epw().as_bytes()).unwrap();
     assert_eq!((weather.latitude_deg, weather.longitude_deg, weather.utc_offset_h, weather.elevation_m), (37.72, -122.22, -8.0, 2.0));
-    let expected = Hour { month: 6, day: 21, hour: 11.5, direct_normal: 812.0, diffuse_horizontal: 95.0, dew_point_c: Some(12.5) };
+    let expected =
+        Hour { year: Some(1997), month: 6, day: 21, hour: 11.5, direct_normal: 812.0, diffuse_horizontal: 95.0, dew_point_c: Some(12.5) };
     assert_eq!(weather.hours[0], expected);
     let quarters = epw().replace("DATA PERIODS,1,1", "DATA PERIODS,1,4").replace("21,12,60", "21,12,15");
     assert_eq!(read(quarters.as_bytes()).unwrap().hours[0].hour, 11.125);

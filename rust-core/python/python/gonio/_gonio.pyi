@@ -289,6 +289,7 @@ def annual(
     closed: Scene | Mapping[str, Scene] | None = None,
     closed_hours: Sequence[float] | Mapping[str, Sequence[float]] | None = None,
     sky: str = "perez",
+    sun_position: str = "true",
     ground: float = 0.2,
     dew_point: float | None = None,
     up: str = "Z",
@@ -314,6 +315,8 @@ class AnnualGlareReading:
     @property
     def en17037(self) -> str: ...
     @property
+    def closed_hours(self) -> list[float]: ...
+    @property
     def values(self) -> Array: ...
     @property
     def diagnostics(self) -> list[tuple[str, str]]: ...
@@ -326,7 +329,13 @@ def annual_glare(
     samples: int = 8192,
     division: int = 4,
     schedule: Sequence[float] | None = None,
+    groups: Mapping[str, str | Sequence[str]] | None = None,
+    blinds: float | Mapping[str, float] | None = None,
+    closed: Scene | Mapping[str, Scene] | None = None,
+    closed_hours: Sequence[float] | Mapping[str, Sequence[float]] | None = None,
+    surfaces: bool = False,
     sky: str = "perez",
+    sun_position: str = "true",
     ground: float = 0.2,
     dew_point: float | None = None,
     up: str = "Z",

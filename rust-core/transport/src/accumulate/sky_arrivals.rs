@@ -2,6 +2,7 @@
 
 use crate::accumulate::deposit::{Contribution, Deposits};
 use crate::words::{code, flag};
+use gonio_camera::sampler::BATCH;
 use gonio_simd::{F, Lanes, M, PADDING, Vec3};
 
 /// Entries that there is room for at first.
@@ -25,7 +26,9 @@ pub struct SkyArrivals {
 impl SkyArrivals {
     /// Whether nothing scattered an entry's light on its way.
     pub fn is_direct(&self, entry: usize) -> bool {
-        self.code[entry] & code::CODES < code::INDIRECT
+        let pass = self.code[entry] & code::CODES;
+        // Pixels see it; measured points are lit by it as first surfaces are.
+        if (self.slot[entry] as usize) < BATCH { matches!(pass, code::EMISSION | code::ENVIRONMENT) } else { pass < code::INDIRECT }
     }
 
     /// The number of the direction that an entry came from, see [`crate::Tracer::light_from`].

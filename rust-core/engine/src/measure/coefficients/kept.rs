@@ -40,12 +40,7 @@ impl std::fmt::Debug for Keeping<'_> {
     }
 }
 
-impl<'a> Keeping<'a> {
-    /// All that there is, which nobody keeps.
-    pub fn of_all(kept: &'a mut Kept) -> Self {
-        Self { kept, rounds: 0..ROUNDS, suns: true, finished: None }
-    }
-
+impl Keeping<'_> {
     fn missing(&self) -> Vec<usize> {
         self.rounds.clone().filter(|round| self.kept.rounds[*round].is_none()).collect()
     }
@@ -93,6 +88,6 @@ impl From<Kept> for DaylightCoefficients {
     /// Of the rounds that are there.
     fn from(kept: Kept) -> Self {
         let (all, scattered) = kept.rounds.into_iter().flatten().map(|round| (round.all, round.scattered)).unzip();
-        Self { all, scattered, suns: kept.suns.unwrap_or_default(), diagnostics: Vec::new() }
+        Self { all, scattered, suns: kept.suns.unwrap_or_default() }
     }
 }

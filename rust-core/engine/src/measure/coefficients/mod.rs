@@ -77,8 +77,6 @@ pub struct DaylightCoefficients {
     pub scattered: Vec<Vec<f32>>,
     /// Straight from the suns' discs: points × suns.
     pub suns: Vec<f32>,
-    /// What differs from what was asked for.
-    pub diagnostics: Vec<Diagnostic>,
 }
 
 impl std::fmt::Debug for SkyTask<'_> {
@@ -95,27 +93,11 @@ const BY_PATCHES: &str = "the sun's light by mirrors and clear solid glass is sp
 const HIDDEN: &str =
     "clear solid glass and mirrors count as what hides the sun; glaze windows with thin panes, which it goes straight through";
 
-/// Finds the coefficients of points that lie on planes, with the scene's settings: `samples` paths a point. Its lamps are dark, its skies and suns give
-/// way to the patches.
+/// Finds what is asked for and not there yet of the coefficients of points that lie on planes, with the scene's settings: `samples` paths a point. Its lamps
+/// are dark, its skies and suns give way to the patches. Tells what differs from what was asked for.
 ///
 /// # Errors
-/// Points that measure anything but illuminance, what compiling finds, cancellation.
-pub fn daylight_coefficients(
-    scene: &Scene,
-    points: &[Meter],
-    task: &SkyTask<'_>,
-    execution: Execution,
-    watch: &mut Watch<'_>,
-) -> Result<DaylightCoefficients> {
-    let mut kept = Kept::default();
-    let diagnostics = trace_rounds(scene, points, task, execution, watch, &mut Keeping::of_all(&mut kept))?;
-    Ok(DaylightCoefficients { diagnostics, ..DaylightCoefficients::from(kept) })
-}
-
-/// Traces what is asked for and not there yet, and tells what differs from what was asked for; see [`daylight_coefficients`].
-///
-/// # Errors
-/// The same.
+/// Points that measure anything but illuminance and luminance, what compiling finds, cancellation.
 pub fn trace_rounds(
     scene: &Scene,
     points: &[Meter],
@@ -124,8 +106,9 @@ pub fn trace_rounds(
     watch: &mut Watch<'_>,
     keeping: &mut Keeping<'_>,
 ) -> Result<Vec<Diagnostic>> {
-    if let Some(other) = points.iter().find(|point| point.measurand != Measurand::Illuminance) {
-        let problem = format!("daylight coefficients are of illuminances, {} was asked for", other.measurand.name());
+    let is_known = |of: Measurand| matches!(of, Measurand::Illuminance | Measurand::Luminance);
+    if let Some(other) = points.iter().find(|point| !is_known(point.measurand)) {
+        let problem = format!("daylight coefficients are of illuminances and luminances, {} was asked for", other.measurand.name());
         return Err(Error::scene(&other.origin, problem));
     }
     let laid = Laid::out(scene, points, task, watch)?;

@@ -125,9 +125,8 @@ fn add(
     let task = tracing.task;
     let [x, y, z] = &sky.direction;
     for entry in 0..sky.count {
-        let Some(row) = (sky.slot[entry] as usize).checked_sub(BATCH).and_then(|slot| rows.get(slot)).filter(|row| **row != NOBODY) else {
-            continue;
-        };
+        // What is looked at comes to pixels, what is measured behind them.
+        let Some(row) = rows.get(sky.slot[entry] as usize % BATCH).filter(|row| **row != NOBODY) else { continue };
         let patch = (task.patch_of)([x[entry], y[entry], z[entry]]);
         let place = sky.opening(entry) * count + (row - first) as usize * task.patches + patch;
         let value = f64::from(sky.value[entry]);

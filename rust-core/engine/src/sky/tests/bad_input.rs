@@ -35,7 +35,7 @@ fn weather_of_elsewhere_and_of_another_clock_is_doubted() {
     let vienna = Place { latitude_deg: 48.21, longitude_deg: 16.37, elevation_m: 190.0 };
     let noon = Moment::parse("2025-06-21T12:00+01:00").expect("a moment");
     let station = |latitude_deg, longitude_deg| {
-        let record = Hour { month: 6, day: 21, hour: 12.5, direct_normal: 700.0, diffuse_horizontal: 100.0, dew_point_c: None };
+        let record = Hour { year: None, month: 6, day: 21, hour: 12.5, direct_normal: 700.0, diffuse_horizontal: 100.0, dew_point_c: None };
         Weather { place: "Station".into(), latitude_deg, longitude_deg, utc_offset_h: 1.0, hours: vec![record], ..Weather::default() }
     };
     let doubts = |place: Place, weather: &Weather, moment: Moment| {

@@ -83,7 +83,7 @@ class Year:
         by_name = closed if isinstance(closed, Mapping) else {"": closed}
         others = {id(other): other for other in by_name.values() if other is not None}
         places = {key: place for place, key in enumerate(others, 1)}
-        tracing = {name: asked[name] for name in ("samples", "division", "groups", "up", "north") if name in asked}
+        tracing = {name: asked[name] for name in ("samples", "division", "groups", "up", "north", "sun_position") if name in asked}
         if others:
             numbers = {name: places[id(other)] for name, other in by_name.items()}
             tracing["closed"] = numbers if closed is by_name else numbers[""]

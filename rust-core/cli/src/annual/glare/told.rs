@@ -1,118 +1,31 @@
-//! `gonio annual-glare`.
+//! What eyes have of a year, as lines, for machines and as files.
 
-use super::{
-    inputs::{weather, year},
-    pictures,
-    plots::{self, Times},
-    settings, tell_doubts,
-};
 use crate::{
+    annual::{
+        inputs::positions,
+        pictures,
+        plots::{self, Times},
+        text,
+    },
     arguments::AnnualGlareOptions,
-    file::{check_targets, print_path, put},
-    measure::{apply_settings, author_grids, watched},
-    messages::{diagnostics_json, print, tell},
-    progress::Reporter,
-    reading::triple,
-    render::stage_options,
-    stage::Stage,
+    file::{print_path, put},
+    messages::{diagnostics_json, print},
     words::Words,
 };
-use gonio::{
-    Diagnostic, Error, Result,
-    annual::{AnnualTask, told},
-    annual_glare::{Eye, EyesTraced, trace_eyes},
-    measure::{GridPoints, around},
-    scene::{Integrator, Origin, SITTING, Scene},
-    sky::Frame,
-};
+use gonio::{Diagnostic, Result, annual_glare::Eye};
 use gonio_annual::{EyeGlare, GlareYear, Schedule, Year, to_npy};
-use gonio_simd::Execution;
-use gonio_usd::{daylight::up_axis, meter::axes};
-use pyo3::prelude::*;
 use serde_json::{Value, json};
-use std::{
-    path::{Path, PathBuf},
-    sync::atomic::{AtomicBool, Ordering},
-};
+use std::path::{Path, PathBuf};
 
 /// The most eyes whose year is drawn each.
 const MOST_DRAWN: usize = 24;
 
-/// Traces the eyes and rates their year.
-pub(crate) fn annual_glare(py: Python<'_>, options: &AnnualGlareOptions, interrupted: &'static AtomicBool) -> Result<i32> {
-    let (year, schedule) = year(&options.year, &weather(&options.year)?)?;
-    tell_doubts(&options.year, &year);
-    let stage_options = stage_options(&options.stage)?;
-    let stage = Stage::open(py, &options.stage.stage, &options.stage.state, &stage_options)?;
-    let mut grids = options.grids.clone();
-    grids.height = grids.height.or((!grids.grid.is_empty()).then_some(SITTING));
-    author_grids(py, &stage, &grids, None)?;
-    let mut loaded = stage.load(py, &stage_options, interrupted)?;
-    loaded.scene.grids.retain(|grid| grids.grid.iter().any(|prim| *prim == *grid.origin.name));
-    apply_settings(&mut loaded.scene, (options.spp, options.max_bounces), Integrator::Path, (&options.work, &options.textures));
-    let [up, ahead] = axes(loaded.info.up_axis);
-    let eyes = eyes(options, &loaded.scene, up, ahead)?;
-    let frame = Frame { up_axis: up_axis(loaded.info.up_axis), north_deg: options.year.north };
-    py.detach(|| {
-        let tell = |diagnostics: &[Diagnostic]| tell(&options.stage, options.quiet, diagnostics);
-        tell(&loaded.diagnostics);
-        if let Some(folder) = &options.year.output {
-            check_targets(paths(folder, eyes.len()).iter())?;
-        }
-        let task = AnnualTask { year: &year, frame, factor: options.factor, facades: &[], closed: &[] };
-        let follow = |watch: &mut gonio::measure::Watch<'_>| trace_eyes(&loaded.scene, &eyes, &task, Execution::detect(), watch);
-        let traced = watched(Reporter::new(options.quiet), None, interrupted, follow)?;
-        tell(&traced.diagnostics);
-        let told: Vec<Diagnostic> = loaded.diagnostics.iter().chain(&traced.diagnostics).cloned().collect();
-        let glare = rated(options, (&year, &schedule), traced, interrupted)?;
-        finish(options, (&year, &schedule), (&eyes, &told), &glare)
-    })
-}
-
-/// The eyes of the command line, and those over grids, which look around.
-fn eyes(options: &AnnualGlareOptions, scene: &Scene, up: [f64; 3], ahead: [f64; 3]) -> Result<Vec<Eye>> {
-    let facings = options.facing.iter().map(|text| triple("facing", text)).collect::<Result<Vec<_>>>()?;
-    let directions = if facings.is_empty() { around(up, ahead, options.directions.unwrap_or(4)) } else { facings };
-    let looking = |name: &str, position: [f64; 3]| {
-        let eye = |(number, facing): (usize, &[f64; 3])| {
-            let name = if directions.len() > 1 { format!("{name} ({} of {})", number + 1, directions.len()) } else { name.to_owned() };
-            Eye { origin: Origin::new(name), position, facing: *facing }
-        };
-        directions.iter().enumerate().map(eye).collect::<Vec<_>>()
-    };
-    let mut eyes = Vec::new();
-    for text in &options.eye {
-        eyes.extend(looking(text, triple("eye", text)?));
-    }
-    for grid in &scene.grids {
-        for (place, position) in GridPoints::new(scene, grid)?.known().enumerate() {
-            eyes.extend(looking(&format!("{}/{}", grid.origin.name, place + 1), position));
-        }
-    }
-    if eyes.is_empty() {
-        return Err(Error::setting("eye", "there is nobody who looks; name an eye with --eye X,Y,Z or a floor with --grid /Prim"));
-    }
-    Ok(eyes)
-}
-
-/// The year of all eyes.
-fn rated(
-    options: &AnnualGlareOptions,
-    (year, schedule): (&Year, &Schedule),
-    traced: EyesTraced,
-    interrupted: &AtomicBool,
-) -> Result<GlareYear> {
-    let settings = settings(&options.year, None, options.work.threads)?;
-    let goes_on = || !interrupted.load(Ordering::Relaxed);
-    GlareYear::new(year, schedule, (traced.views, traced.group), &settings, &goes_on).map_err(told)?.ok_or(Error::Cancelled)
-}
-
 /// Tells and writes.
-fn finish(
+pub(super) fn finish(
     options: &AnnualGlareOptions,
     (year, schedule): (&Year, &Schedule),
     (eyes, told): (&[Eye], &[Diagnostic]),
-    glare: &GlareYear,
+    (glare, facades): (&GlareYear, &[&str]),
 ) -> Result<i32> {
     let figures = glare.glare(schedule);
     if let Some(folder) = &options.year.output {
@@ -136,19 +49,28 @@ fn finish(
             })
         };
         let shares: serde_json::Map<String, Value> = spatial.iter().map(|(limit, share)| ((*limit).to_owned(), json!(share))).collect();
-        let value = json!({
+        let mut value = json!({
             "weather": options.year.weather.to_string_lossy(),
             "place": year.place,
             "schedule": options.year.schedule,
+            "sun_position": positions(&options.year).name(),
             "used_steps": schedule.count(),
             "views": eyes.iter().zip(&figures).map(eye).collect::<Vec<_>>(),
             "views_within_5_percent": shares,
+            "surfaces": options.surfaces,
             "diagnostics": diagnostics_json(told),
         });
+        if !options.facades.group.is_empty() {
+            value["groups"] = json!(facades);
+        }
+        if !glare.closed_hours().is_empty() {
+            value["closed_hours"] = json!(glare.closed_hours());
+        }
         print(&value.to_string());
         return Ok(0);
     }
     eyes.iter().zip(&figures).for_each(|(eye, (found, error))| print(&line(eye, found, error.as_ref())));
+    text::closed(facades, glare.closed_hours()).iter().for_each(|line| print(line));
     if eyes.len() > 1 {
         let told: Vec<String> = spatial.iter().map(|(limit, share)| format!("{:.0} % at {limit}", 100.0 * share)).collect();
         print(&format!("views whose DGP is exceeded in no more than 5 % of the used time: {}", told.join(", ")));
@@ -177,7 +99,7 @@ fn line(eye: &Eye, found: &EyeGlare, error: Option<&EyeGlare>) -> String {
 }
 
 /// The files: series, table, and the year of the first eyes as pictures.
-fn paths(folder: &Path, eyes: usize) -> Vec<PathBuf> {
+pub(super) fn paths(folder: &Path, eyes: usize) -> Vec<PathBuf> {
     let pictures = (1..=eyes.min(MOST_DRAWN)).flat_map(|number| ["png", "svg"].map(|ending| format!("glare_{number}.{ending}")));
     ["glare.npy", "glare.csv"].map(str::to_owned).into_iter().chain(pictures).map(|name| folder.join(name)).collect()
 }
