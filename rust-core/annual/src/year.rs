@@ -37,6 +37,8 @@ pub struct Step {
     pub dew_point_c: f64,
     /// The sun: by Radiance's formulas in the middle of the interval, unless [`Year::under`] has put it elsewhere.
     pub sun: Sun,
+    /// When it stands there: the middle of the interval, or of the part of it in which the sun is up.
+    pub sun_hour: f64,
 }
 
 /// A whole year in equal steps, from the first of January on.
@@ -99,6 +101,7 @@ impl Year {
                 diffuse: hour.diffuse_horizontal,
                 dew_point_c: dew_points.mean(hour.dew_point_c),
                 sun: sun(day_of_year, hour.hour, weather.latitude_deg, weather.longitude_deg, weather.utc_offset_h),
+                sun_hour: hour.hour,
             });
         }
         if steps.len() != expected {
@@ -121,10 +124,10 @@ impl Year {
         })
     }
 
-    /// The same year under suns that stand elsewhere, one for each step.
+    /// The same year under suns that stand elsewhere, and at other hours, one for each step.
     #[must_use]
-    pub fn under(mut self, suns: &[Sun]) -> Self {
-        self.steps.iter_mut().zip(suns).for_each(|(step, sun)| step.sun = *sun);
+    pub fn under(mut self, suns: &[(f64, Sun)]) -> Self {
+        self.steps.iter_mut().zip(suns).for_each(|(step, (hour, sun))| (step.sun_hour, step.sun) = (*hour, *sun));
         self.doubts = doubts(&self.steps, &self.lines, self.quantities);
         self
     }

@@ -84,19 +84,20 @@ impl Sky {
         Ok(Sun { altitude: found.elevation_deg.to_radians(), azimuth: found.azimuth_deg.to_radians() })
     }
 
-    /// The sun in the middle of the part of a step in which it is up, of the whole step where it is up or down at both ends.
-    fn of_step(&self, step: &Step) -> Result<Sun> {
+    /// The sun in the middle of the part of a step in which it is up, of the whole step where it is up or down at both ends; and when that is.
+    fn of_step(&self, step: &Step) -> Result<(f64, Sun)> {
         let middle = self.at(step, step.hour)?;
         let half = 0.5 * self.step_hours;
         if middle.altitude.to_degrees().abs() > CLIMBS_DEG * half + BENT_DEG {
-            return Ok(middle);
+            return Ok((step.hour, middle));
         }
         let [from, to] = [(step.hour - half).max(0.0), (step.hour + half).min(24.0)];
-        match (self.at(step, from)?.is_up(), self.at(step, to)?.is_up()) {
-            (false, true) => self.at(step, 0.5 * (self.turn(step, from, to)? + to)),
-            (true, false) => self.at(step, 0.5 * (from + self.turn(step, to, from)?)),
-            _ => Ok(middle),
-        }
+        let hour = match (self.at(step, from)?.is_up(), self.at(step, to)?.is_up()) {
+            (false, true) => 0.5 * (self.turn(step, from, to)? + to),
+            (true, false) => 0.5 * (from + self.turn(step, to, from)?),
+            _ => return Ok((step.hour, middle)),
+        };
+        Ok((hour, self.at(step, hour)?))
     }
 
     /// When it comes up or goes down between an hour at which it is down and one at which it is up.

@@ -17,7 +17,7 @@ pub(crate) struct Times {
 impl Times {
     pub(crate) fn new(year: &Year) -> Self {
         let of_day = year.steps.chunk_by(|a, b| a.day_of_year == b.day_of_year);
-        Self { step_hours: year.step_hours, sunrise_sunset_h: of_day.map(sun).collect() }
+        Self { step_hours: year.step_hours, sunrise_sunset_h: of_day.map(|steps| sun(steps, 0.5 * year.step_hours)).collect() }
     }
 
     pub(crate) fn a_day(&self) -> usize {
@@ -37,15 +37,22 @@ impl Times {
     }
 }
 
-/// Sunrise and sunset of a day's steps, between those whose middles lie on either side of it; the day's ends where the sun is up there.
-fn sun(steps: &[Step]) -> Option<[f64; 2]> {
+/// Sunrise and sunset of a day's steps of so many half hours: the ends of the parts in which the sun is up, where it stands in the middle of such a
+/// part, else between the middles of steps on either side; the day's ends where the sun is up there.
+fn sun(steps: &[Step], half: f64) -> Option<[f64; 2]> {
     let above = |step: &Step| step.sun.altitude + (0.5 * SUN_ANGLE_DEG).to_radians();
     let first = steps.iter().position(|step| step.sun.is_up())?;
     let last = steps.iter().rposition(|step| step.sun.is_up())?;
     let crossing =
         |down: &Step, up: &Step| down.hour + (up.hour - down.hour) * -above(down) / (above(up) - above(down)).max(f64::MIN_POSITIVE);
-    let rise = first.checked_sub(1).map_or(0.0, |before| crossing(&steps[before], &steps[first]));
-    let set = steps.get(last + 1).map_or(24.0, |after| crossing(after, &steps[last]));
+    let rise = match steps[first] {
+        step if step.sun_hour > step.hour => 2.0 * step.sun_hour - (step.hour + half),
+        step => first.checked_sub(1).map_or(0.0, |before| crossing(&steps[before], &step)),
+    };
+    let set = match steps[last] {
+        step if step.sun_hour < step.hour => 2.0 * step.sun_hour - (step.hour - half),
+        step => steps.get(last + 1).map_or(24.0, |after| crossing(after, &step)),
+    };
     Some([rise, set])
 }
 
@@ -58,7 +65,18 @@ mod tests {
         let step = |hour: usize| {
             let hour = hour as f64 + 0.5;
             let sun = Sun { altitude: altitude(hour), azimuth: 0.0 };
-            Step { month: 1, day: 1, hour, day_of_year: 1, direct: 0.0, diffuse: 0.0, dew_point_c: 11.0, sun }
+            Step {
+                calendar_year: None,
+                month: 1,
+                day: 1,
+                hour,
+                day_of_year: 1,
+                direct: 0.0,
+                diffuse: 0.0,
+                dew_point_c: 11.0,
+                sun,
+                sun_hour: hour,
+            }
         };
         (0..24).map(step).collect()
     }
@@ -66,9 +84,19 @@ mod tests {
     #[test]
     fn the_sun_rises_between_steps() {
         // 0.1 rad an hour; the disc is up where its middle is 0.00465 rad below the horizon.
-        let found = sun(&day(|hour| 0.1 * (4.2 - (hour - 12.0).abs()))).expect("a day");
+        let found = sun(&day(|hour| 0.1 * (4.2 - (hour - 12.0).abs())), 0.5).expect("a day");
         assert!((found[0] - (7.8 - 0.0465)).abs() < 1e-3 && (found[1] - (16.2 + 0.0465)).abs() < 1e-3, "{found:?}");
-        assert_eq!((sun(&day(|_| -0.1)), sun(&day(|_| 0.1))), (None, Some([0.0, 24.0])));
+        assert_eq!((sun(&day(|_| -0.1), 0.5), sun(&day(|_| 0.1), 0.5)), (None, Some([0.0, 24.0])));
+    }
+
+    #[test]
+    fn the_sun_is_up_in_parts_of_steps() {
+        let mut steps = day(|hour| 0.1 * (4.2 - (hour - 12.0).abs()));
+        // Up from 7.2 h, which is before the middle of that step; until 16.9 h.
+        (steps[7].sun_hour, steps[7].sun.altitude) = (7.6, 0.01);
+        (steps[16].sun_hour, steps[16].sun.altitude) = (16.45, 0.01);
+        let found = sun(&steps, 0.5).expect("a day");
+        assert!((found[0] - 7.2).abs() < 1e-9 && (found[1] - 16.9).abs() < 1e-9, "{found:?}");
     }
 
     #[test]
