@@ -1,7 +1,9 @@
 """Heavy things in an empty file of Blender; each maker gives the objects that are shown."""
 
 import math
+import tempfile
 from collections.abc import Callable
+from pathlib import Path
 
 import bpy
 import numpy
@@ -134,14 +136,18 @@ def lights(count: int) -> list[bpy.types.Object]:
 
 
 def textures(count: int) -> list[bpy.types.Object]:
-    """Squares side by side, each with an image of its own."""
+    """Squares side by side, each with an image file of its own that nothing has read yet."""
+    folder = Path(tempfile.mkdtemp())
     across, shown, values = math.ceil(math.sqrt(count)), [], numpy.ones((IMAGE, IMAGE, 4), dtype="f4")
     values[..., 0], values[..., 1] = numpy.meshgrid(*(2 * [numpy.linspace(0.0, 1.0, IMAGE, dtype="f4")]))
     for number in range(count):
         values[..., 2] = number / count
-        image = bpy.data.images.new(f"image {number}", IMAGE, IMAGE)
-        image.pixels.foreach_set(values.ravel())
-        image.pack()
+        made = bpy.data.images.new(f"made {number}", IMAGE, IMAGE)
+        made.pixels.foreach_set(values.ravel())
+        made.filepath_raw, made.file_format = str(folder / f"{number}.png"), "PNG"
+        made.save()
+        bpy.data.images.remove(made)
+        image = bpy.data.images.load(str(folder / f"{number}.png"))
         mesh = wrinkled_mesh(f"square {number}", 1, quads=True, uv=True, seam=False)
         mesh.materials[0] = pictured(image)
         thing = placed(f"square {number}", mesh)
