@@ -9,6 +9,7 @@ import numpy as np
 from ..file_version import file_version
 from .colour_management import gonio_name, pixels_to_rec709, working_space
 from .image_files import bytes_of, frame_of, kind_of, kind_of_file, path_of, pixels_of, pixels_of_file, pixels_of_frame, png_of
+from .image_header import Header, header_of_bytes, header_of_file
 
 # File formats that keep colours multiplied by alpha.
 PREMULTIPLIED = {"OPEN_EXR", "OPEN_EXR_MULTILAYER"}
@@ -29,6 +30,8 @@ class Images:
         self.frame, self._is_animated = None, False
         # By the image's number in the session: the format of its file, and who used it last.
         self._kinds, self._users = {}, {}
+        # What heads of files say, by which file or packed bytes these are of.
+        self._headers = {}
         # Owner of a picture that changes -> what its pixels were, and which of its two places they have.
         self._changing = {}
 
@@ -103,10 +106,28 @@ class Images:
             self._slots.place(self._scene.put_texture, number, description, pixels=pixels)
         return number
 
-    @staticmethod
-    def has_alpha(image):
+    def has_alpha(self, image):
         """Whether the file can have an alpha channel at all."""
-        return image.depth not in (8, 16, 24, 48, 96)
+        told = self._header(image).has_alpha
+        return image.depth not in (8, 16, 24, 48, 96) if told is None else told
+
+    def is_float(self, image):
+        """Whether Blender has floats of it, not bytes."""
+        told = self._header(image).is_float
+        return image.is_float if told is None else told
+
+    def _header(self, image):
+        """What the head of an image's file says."""
+        if image.source != "FILE" or image.is_dirty:
+            return Header()
+        packed, path = image.packed_file, path_of(image)
+        try:
+            key = (path, *file_version(path)) if packed is None else (image.session_uid, packed.size)
+        except OSError:
+            return Header()
+        if key not in self._headers:
+            self._headers[key] = header_of_file(path) if packed is None else header_of_bytes(packed.data)
+        return self._headers[key]
 
     def stores_premultiplied(self, image):
         """Whether colours are stored multiplied by alpha."""
@@ -161,7 +182,7 @@ class Images:
 
     def _is_remade(self, image):
         """Whether Blender changes what a packed file holds as it unpacks it: floats are multiplied by alpha, bytes divided by it."""
-        modes = ("STRAIGHT", "PREMUL") if image.is_float else ("PREMUL",)
+        modes = ("STRAIGHT", "PREMUL") if self.is_float(image) else ("PREMUL",)
         return image.alpha_mode in modes and self.has_alpha(image)
 
     def _packed(self, image, report):

@@ -67,7 +67,7 @@ def _texel(t, node, context, output, uv):
     wrap, image = WRAP[node.extension], node.image
     if output.identifier == "Alpha" and image is not None and image.alpha_mode == "NONE" and wrap == "Black":
         return clipped_alpha(t, uv, image.size, node.interpolation == "Closest")
-    if t.kind == "Material" and image is not None and _is_encoded(image):
+    if t.kind == "Material" and image is not None and _is_encoded(t, image):
         is_product = _is_product(t, image) and node.outputs["Color"].is_linked
         # Where both outputs are in use, one picture serves them: light, for that is what is divided by alpha again, from afar too.
         is_divided = is_product and node.outputs["Alpha"].is_linked
@@ -104,7 +104,7 @@ def _sample(t, node, context, uv, wrap):
 
 
 def _look_up(t, node, number, uv, wrap, is_light=False):
-    filters = FILTERS_OF_CODES if _is_encoded(node.image) and not is_light else FILTERS
+    filters = FILTERS_OF_CODES if _is_encoded(t, node.image) and not is_light else FILTERS
     return look_up(t, number, uv, (wrap, wrap), filters[node.interpolation], MISSING)
 
 
@@ -114,9 +114,9 @@ def look_up(t, number, uv, wrap, texture_filter="Linear", fallback=(0.0, 0.0, 0.
     return t.graph.add({"Image": {**fields, "scale": [1.0] * 4, "bias": [0.0] * 4}}, uv, kind="RGBA")
 
 
-def _is_encoded(image):
+def _is_encoded(t, image):
     """Whether an image's colours are bytes of sRGB, which Cycles decodes after it filtered them."""
-    return not image.is_float and _is_srgb(image)
+    return not t.images.is_float(image) and _is_srgb(image)
 
 
 def _is_srgb(image):
@@ -146,7 +146,7 @@ def _with_alpha(t, node, output, texel):
         if node.outputs["Alpha"].is_linked:
             # What hides where nothing is seen stays hidden.
             return texel * texel.component(3).sign()
-        is_byte = not image.is_float and node.interpolation == "Closest"
+        is_byte = not t.images.is_float(image) and node.interpolation == "Closest"
         return multiplied_encoded(t, texel, is_byte) if _is_srgb(image) else texel * texel.component(3)
     return divided(texel) if _is_associated(t, image) and node.outputs["Alpha"].is_linked else texel
 

@@ -60,6 +60,9 @@ pub struct MipMap {
     note: Option<String>,
 }
 
+/// Texels that one task packs.
+const TOGETHER: usize = 1 << 12;
+
 /// More words than hardware gathers can index.
 const MAX_WORDS: usize = i32::MAX as usize;
 
@@ -177,29 +180,31 @@ impl MipMap {
     fn read(&self, words: &[f32], texel: usize) -> [f32; 4] {
         let at = texel * self.format.words();
         match self.format {
-            TexelFormat::Byte => {
-                let [r, g, b, a] = words[at].to_bits().to_le_bytes();
-                let [r, g, b] = [r, g, b].map(|code| self.table[usize::from(code)]);
-                [r, g, b, f32::from(a) / 255.0]
-            }
+            TexelFormat::Byte => self.decoded(words[at]),
             TexelFormat::Grey => [words[at], words[at], words[at], 1.0],
             TexelFormat::Half => unpack_halves([words[at], words[at + 1]]),
             TexelFormat::Float => [words[at], words[at + 1], words[at + 2], words[at + 3]],
         }
     }
 
+    /// Four codes of a byte each as linear RGBA.
+    #[inline]
+    fn decoded(&self, word: f32) -> [f32; 4] {
+        let [r, g, b, a] = word.to_bits().to_le_bytes();
+        let [r, g, b] = [r, g, b].map(|code| self.table[usize::from(code)]);
+        [r, g, b, f32::from(a) / 255.0]
+    }
+
     fn fill_finest(&mut self, image: &Image, conversion: &Conversion) {
         let texels = &mut self.words[..image.len() * self.format.words()];
         if let (TexelFormat::Byte, Texels::Byte(values)) = (self.format, &image.texels) {
             let channels = image.channels as usize;
-            texels.par_iter_mut().zip(values.par_chunks_exact(channels)).for_each(|(word, codes)| {
-                *word = pack_bytes(match *codes {
-                    [grey] => [grey, grey, grey, 255],
-                    [grey, alpha] => [grey, grey, grey, alpha],
-                    [r, g, b] => [r, g, b, 255],
-                    [r, g, b, a, ..] => [r, g, b, a],
-                    [] => [0; 4],
-                });
+            let parts = texels.par_chunks_mut(TOGETHER).zip(values.par_chunks(TOGETHER * channels));
+            parts.for_each(|(words, codes)| match channels {
+                1 => pack(words, codes, |[grey]| [grey, grey, grey, 255]),
+                2 => pack(words, codes, |[grey, alpha]| [grey, grey, grey, alpha]),
+                3 => pack(words, codes, |[r, g, b]| [r, g, b, 255]),
+                _ => pack(words, codes, |rgba: [u8; 4]| rgba),
             });
             return;
         }
@@ -218,20 +223,32 @@ impl MipMap {
                 return Err(TextureError::new(TextureErrorKind::Cancelled, "loading was cancelled"));
             }
             let (width, height, offset) = self.level(level - 1).expect("the level above exists");
-            let texels = match &above {
-                None => shrink([width, height], |x, y| self.read(&self.words, offset + y * width + x)),
-                Some(texels) => shrink([width, height], |x, y| texels[y * width + x]),
+            let texels = match (&above, self.format) {
+                (Some(texels), _) => shrink([width, height], |x, y| texels[y * width + x]),
+                (None, TexelFormat::Byte) => {
+                    let words = &self.words[offset..offset + width * height];
+                    shrink([width, height], |x, y| self.decoded(words[y * width + x]))
+                }
+                (None, _) => shrink([width, height], |x, y| self.read(&self.words, offset + y * width + x)),
             };
             let (format, first) = (self.format, (offset + width * height) * self.format.words());
             let words = &mut self.words[first..first + texels.len() * format.words()];
-            words.par_chunks_exact_mut(format.words()).zip(&texels).for_each(|(words, texel)| match format {
-                TexelFormat::Byte => words[0] = pack_bytes(encode(&encoder, *texel)),
-                _ => store(format, words, *texel),
+            let parts = words.par_chunks_mut(TOGETHER * format.words()).zip(texels.par_chunks(TOGETHER));
+            parts.for_each(|(words, texels)| match format {
+                TexelFormat::Byte => {
+                    words.iter_mut().zip(texels).for_each(|(word, texel)| *word = pack_bytes(encode(&encoder, *texel)));
+                }
+                _ => words.chunks_exact_mut(format.words()).zip(texels).for_each(|(words, texel)| store(format, words, *texel)),
             });
             above = Some(texels);
         }
         Ok(())
     }
+}
+
+/// Puts texels of N codes each into words.
+fn pack<const N: usize>(words: &mut [f32], codes: &[u8], rgba: impl Fn([u8; N]) -> [u8; 4]) {
+    words.iter_mut().zip(codes.as_chunks().0).for_each(|(word, codes)| *word = pack_bytes(rgba(*codes)));
 }
 
 fn encode(encoder: &Encoder, [r, g, b, a]: [f32; 4]) -> [u8; 4] {

@@ -16,6 +16,7 @@ pub(crate) fn half_size(size: usize) -> usize {
 
 /// Texel `i` of `half_size(fine)` covers `fine / half_size(fine)` texels: one, two, or (odd sizes) two and a fraction spread over three
 /// (Guthe and Heckbert, Non-Power-of-Two Mipmapping, 2005).
+#[inline]
 fn taps(fine: usize, i: usize) -> Taps {
     match (fine, fine % 2) {
         (1, _) => Taps { first: 0, weights: [1.0, 0.0, 0.0], count: 1 },
@@ -34,17 +35,21 @@ pub(crate) fn shrink(size: [usize; 2], texel: impl Fn(usize, usize) -> [f32; 4] 
     let mut out = vec![[0.0; 4]; coarse[0] * coarse[1]];
     out.par_chunks_mut(coarse[0]).enumerate().for_each(|(y, row)| {
         let vertical = taps(size[1], y);
-        for (x, value) in row.iter_mut().enumerate() {
-            *value = average(&taps(size[0], x), &vertical, &texel);
+        let average = |x: usize, counts: [usize; 2]| average(&taps(size[0], x), &vertical, counts, &texel);
+        match [taps(size[0], 0).count, vertical.count] {
+            // Most are of even sizes: these loops are unrolled.
+            [2, 2] => row.iter_mut().enumerate().for_each(|(x, value)| *value = average(x, [2, 2])),
+            counts => row.iter_mut().enumerate().for_each(|(x, value)| *value = average(x, counts)),
         }
     });
     out
 }
 
-fn average(horizontal: &Taps, vertical: &Taps, texel: &impl Fn(usize, usize) -> [f32; 4]) -> [f32; 4] {
+#[inline]
+fn average(horizontal: &Taps, vertical: &Taps, [across, down]: [usize; 2], texel: &impl Fn(usize, usize) -> [f32; 4]) -> [f32; 4] {
     let mut sum = [0.0; 4];
-    for j in 0..vertical.count {
-        for i in 0..horizontal.count {
+    for j in 0..down {
+        for i in 0..across {
             let weight = vertical.weights[j] * horizontal.weights[i];
             let value = texel(horizontal.first + i, vertical.first + j);
             for (s, v) in sum.iter_mut().zip(value) {
