@@ -4,6 +4,7 @@ import csv
 import json
 import re
 import xml.etree.ElementTree as ET
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ pytest.importorskip("gonio")
 pytest.importorskip("pxr")
 
 SVG = "{http://www.w3.org/2000/svg}"
+MODEL = Path(__file__).resolve().parents[2] / "examples/models/office.hbjson"
 STAGE = """#usda 1.0
 (
     metersPerUnit = 1
@@ -182,3 +184,25 @@ def test_glare_is_drawn_by_its_classes(run, year, tmp_path):
     hours = sum(int(count) for path in root.iter(f"{SVG}path") for count in re.findall(r"h1v(\d+)h-1z", path.get("d")))
     assert hours == (values > 0).sum() and {"0.35", "0.4", "0.45", "DGP"} <= set(texts)
     assert any("is exceeded in 5 % of the used time" in text for text in texts)
+
+
+def test_sensors_of_a_model_have_a_plan_in_any_order(run, tmp_path):
+    model = json.loads(MODEL.read_text())
+    (grid,) = model["properties"]["radiance"]["sensor_grids"]
+    # As honeybee often has them: column by column.
+    grid["sensors"].sort(key=lambda sensor: sensor["pos"])
+    (tmp_path / "office.hbjson").write_text(json.dumps(model))
+    light = (HOUR > 6) & (HOUR < 18)
+    write_wea(tmp_path / "year.wea", np.where(light, 10_000, 0), np.where(light, 5_000, 0))
+    words = ("--weather", tmp_path / "year.wea", "-p", 256, "-m", 1, "-q", "--json", "-o", tmp_path / "out")
+    done = run("annual", tmp_path / "office.hbjson", *words, timeout=120)
+    assert done.returncode == 0, done.stderr
+    (found,) = json.loads(done.stdout)["grids"]
+    assert (found["columns"], found["rows"]) == (10, 7)
+    for cell, point in zip(found["cells"], found["points"], strict=True):
+        x, y, _ = point["position_m"]
+        assert [cell % 10, cell // 10] == pytest.approx([(x - 0.75) / 0.5, (y - 0.75) / 0.5], abs=1e-6)
+    by_cell = dict(zip(found["cells"], found["points"], strict=True))
+    root, _ = plot(tmp_path / "out" / "desks_daylight_factor.svg")
+    shown = [element.text for element in root.iter(f"{SVG}text") if element.get("class") is None]
+    assert shown == [f"{by_cell[cell]['daylight_factor']:.1f}" for cell in range(70)]

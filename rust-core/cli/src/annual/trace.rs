@@ -6,7 +6,7 @@ use super::{
     farm,
     inputs::{self, Inputs, Named},
     kept_path, pictures,
-    plots::{self, Layout, filled},
+    plots::{self, Layout},
     series, settings, tell_doubts, tell_whole, text, whole,
 };
 use crate::{
@@ -137,16 +137,17 @@ fn finish(
     let mut found = Vec::new();
     for (named, traced) in inputs.grids.iter().zip(grids) {
         let (grid, series) = calculate(&options.year, inputs, named, &settings, interrupted)?;
-        draw(&options.year, &inputs.year, (&named.name, &grid, Layout::of(traced).as_ref()), series.as_ref())?;
+        let layout = Layout::of(traced);
+        draw(&options.year, &inputs.year, (&named.name, &grid, layout.as_ref()), series.as_ref())?;
         if let (Some(folder), Some(series)) = (&options.year.output, series) {
-            let written = pictures::draw(folder, &named.name, (&grid, traced), &inputs.year, &series.means())?;
+            let written = pictures::draw(folder, &named.name, (&grid, layout.as_ref(), traced), &inputs.year, &series.means())?;
             written.iter().filter(|_| !options.year.json).for_each(|path| print_path(path));
         }
         if !options.year.json {
             let closed = text::closed(facades, &grid.closed_hours);
             text::lines(&named.name, &grid, &options.metrics).iter().chain(&closed).for_each(|line| print(line));
         }
-        let mut json = placed(as_json(named, &grid), traced);
+        let mut json = placed(as_json(named, &grid), traced, layout.as_ref());
         if !options.facades.group.is_empty() {
             json["groups"] = json!(facades);
         }
@@ -159,14 +160,10 @@ fn finish(
 }
 
 /// A grid with the places of its points.
-fn placed(mut grid: Value, traced: &AnnualGrid) -> Value {
+fn placed(mut grid: Value, traced: &AnnualGrid, layout: Option<&Layout>) -> Value {
     for (point, position) in grid["points"].as_array_mut().into_iter().flatten().zip(&traced.positions) {
         point["position_m"] = json!(position);
     }
-    grid["columns"] = json!(traced.size[0]);
-    grid["rows"] = json!(traced.size[1]);
-    if traced.is_there.contains(&false) {
-        grid["cells"] = json!(filled(&traced.is_there));
-    }
+    Layout::tell(&mut grid, traced, layout);
     grid
 }

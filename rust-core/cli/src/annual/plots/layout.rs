@@ -1,7 +1,9 @@
 //! Where a grid's points lie on the plan.
 
+use super::lattice::lattice;
 use gonio::annual::AnnualGrid;
-use serde_json::Value;
+use serde_json::{Value, json};
+use std::collections::HashMap;
 
 /// Share by which distances of neighbours may differ from each other.
 const EVEN: f64 = 0.01;
@@ -13,15 +15,14 @@ pub(crate) struct Layout {
     /// Width and depth of a cell, m.
     pub(crate) spacing: [f64; 2],
     /// By point its cell, row by row.
-    cells: Vec<usize>,
+    pub(crate) cells: Vec<usize>,
 }
 
 impl Layout {
     /// Of points that lie evenly; `None` of others, such as meters here and there.
     pub(crate) fn new(size: [usize; 2], cells: Vec<usize>, positions: &[[f64; 3]]) -> Option<Self> {
-        let rises = cells.windows(2).all(|pair| pair[0] < pair[1]);
-        let fits = cells.len() == positions.len() && cells.last().is_some_and(|last| *last < size[0].saturating_mul(size[1]));
-        if !(rises && fits) {
+        let fits = cells.len() == positions.len() && cells.iter().all(|cell| *cell < size[0].saturating_mul(size[1]));
+        if !fits || cells.is_empty() {
             return None;
         }
         let along = even(&cells, positions, |cell| ((cell + 1) % size[0] != 0).then_some(cell + 1))?;
@@ -35,9 +36,21 @@ impl Layout {
         Some(Self { size, spacing, cells })
     }
 
-    /// Of a traced grid.
+    /// Of a traced grid; of meters that lie in rows.
     pub(crate) fn of(grid: &AnnualGrid) -> Option<Self> {
-        Self::new(grid.size, filled(&grid.is_there), &grid.positions)
+        Self::new(grid.size, filled(&grid.is_there), &grid.positions).or_else(|| {
+            let (size, cells) = lattice(&grid.positions, &grid.normals)?;
+            Self::new(size, cells, &grid.positions)
+        })
+    }
+
+    /// Tells a grid as JSON where its points lie.
+    pub(crate) fn tell(grid: &mut Value, traced: &AnnualGrid, layout: Option<&Self>) {
+        let (size, cells) = layout.map_or_else(|| (traced.size, filled(&traced.is_there)), |layout| (layout.size, layout.cells.clone()));
+        (grid["columns"], grid["rows"]) = (json!(size[0]), json!(size[1]));
+        if cells.len() < size[0] * size[1] || cells.iter().enumerate().any(|(place, cell)| place != *cell) {
+            grid["cells"] = json!(cells);
+        }
     }
 
     /// Of a grid as JSON.
@@ -59,16 +72,17 @@ impl Layout {
 }
 
 /// The cells that hold points.
-pub(crate) fn filled(is_there: &[bool]) -> Vec<usize> {
+fn filled(is_there: &[bool]) -> Vec<usize> {
     is_there.iter().enumerate().filter_map(|(cell, is_there)| is_there.then_some(cell)).collect()
 }
 
 /// The distance of the points of cells that are neighbours; 0 where there are none, `None` where distances differ.
 fn even(cells: &[usize], positions: &[[f64; 3]], next: impl Fn(usize) -> Option<usize>) -> Option<f64> {
+    let place_of: HashMap<usize, &[f64; 3]> = cells.iter().copied().zip(positions).collect();
     let mut found: Option<f64> = None;
     for (cell, place) in cells.iter().zip(positions) {
-        let Some(other) = next(*cell).and_then(|next| cells.binary_search(&next).ok()) else { continue };
-        let apart = place.iter().zip(&positions[other]).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+        let Some(other) = next(*cell).and_then(|next| place_of.get(&next)) else { continue };
+        let apart = place.iter().zip(*other).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
         match found {
             Some(known) if (apart - known).abs() > EVEN * known => return None,
             _ => found = found.or(Some(apart)),

@@ -1,6 +1,7 @@
 //! A grid's year as plots: figures on the plan, the mean of the points over days and hours, useful daylight point by point; glare at an eye.
 
 mod glare;
+mod lattice;
 mod layout;
 mod times;
 
@@ -12,7 +13,7 @@ use gonio_page::{
     fill,
     plot::{Band, Bands, Carpet, Head, Map, Scale},
 };
-pub(crate) use layout::{Layout, filled};
+pub(crate) use layout::Layout;
 use std::path::{Path, PathBuf};
 pub(crate) use times::Times;
 
