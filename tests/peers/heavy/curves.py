@@ -60,29 +60,40 @@ def plot(found: dict[str, dict[str, list[tuple[float, dict[str, float]]]]]) -> s
     parts = []
     for column, (name, engines) in enumerate(found.items()):
         for line, (figure, (title, by)) in enumerate(FIGURES.items()):
-            left, top = column * WIDTH + MARGIN, line * HEIGHT + MARGIN
-            curves = {engine: [(math.log(size), math.log(max(each[figure] / by, 1e-3))) for size, each in rows] for engine, rows in engines.items()}
-            places = [place for rows in curves.values() for place in rows]
-            (x0, x1), (y0, y1) = ((min(p[axis] for p in places), max(p[axis] for p in places)) for axis in (0, 1))
-            across, down = (WIDTH - 1.5 * MARGIN) / max(x1 - x0, 1.0), (HEIGHT - 2 * MARGIN) / max(y1 - y0, 1.0)
-            parts.append(f'<text x="{left}" y="{top - 16}">{title} by {name}</text>')
-            for engine, rows in curves.items():
-                at = [(left + across * (x - x0), top + HEIGHT - 2 * MARGIN - down * (y - y0)) for x, y in rows]
-                drawn = " ".join(f"{x:.1f},{y:.1f}" for x, y in at)
-                parts.append(f'<polyline points="{drawn}" fill="none" stroke="{COLOURS[engine]}" stroke-width="2"/>')
-                x, y = at[-1]
-                value = math.exp(rows[-1][1])
-                lower = engine == min(curves, key=lambda each: curves[each][-1][1])
-                parts.append(
-                    f'<text x="{x:.1f}" y="{y + (14 if lower else -6):.1f}" text-anchor="end" fill="{COLOURS[engine]}">{engine.title()} {value:,.3g}</text>'
-                )
-            sizes = [size for size, _ in next(iter(engines.values()))]
-            for size in sizes:
-                x = left + across * (math.log(size) - x0)
-                parts.append(f'<text x="{x:.1f}" y="{top + HEIGHT - 1.5 * MARGIN:.1f}" text-anchor="middle">{size:.0e}</text>'.replace("e+0", "e"))
+            corner = column * WIDTH + MARGIN, line * HEIGHT + MARGIN
+            parts.append(f'<text x="{corner[0]}" y="{corner[1] - 24}">{title} by {name}</text>')
+            parts += frame(corner, {engine: [(size, each[figure] / by) for size, each in rows] for engine, rows in engines.items()})
     size = f'width="{WIDTH * len(found)}" height="{HEIGHT * len(FIGURES)}"'
     head = f'<svg xmlns="http://www.w3.org/2000/svg" {size} font-family="sans-serif" font-size="11">'
     return "\n".join([head, '<rect width="100%" height="100%" fill="white"/>', *parts, "</svg>", ""])
+
+
+def frame(corner: tuple[int, int], curves: dict[str, list[tuple[float, float]]]) -> list[str]:
+    """The curves of one figure, their last values, and the sizes below."""
+    places = [(math.log(size), math.log(max(value, 1e-3))) for rows in curves.values() for size, value in rows]
+    (x0, x1), (y0, y1) = ((min(p[axis] for p in places), max(p[axis] for p in places)) for axis in (0, 1))
+    across, down = (WIDTH - 2.4 * MARGIN) / max(x1 - x0, 1.0), (HEIGHT - 2 * MARGIN) / max(y1 - y0, 1.0)
+    at = lambda size, value: (corner[0] + across * (math.log(size) - x0), corner[1] + down * (y1 - math.log(max(value, 1e-3))))  # noqa: E731
+    least = min(curves, key=lambda engine: curves[engine][-1][1])
+    parts = []
+    for engine, rows in curves.items():
+        drawn = " ".join(f"{x:.1f},{y:.1f}" for x, y in (at(*row) for row in rows))
+        parts.append(f'<polyline points="{drawn}" fill="none" stroke="{COLOURS[engine]}" stroke-width="2"/>')
+        x, y = at(*rows[-1])
+        text = f"{engine.title()} {short(rows[-1][1])}"
+        parts.append(f'<text x="{x + 6:.1f}" y="{y + (12 if engine == least else -2):.1f}" fill="{COLOURS[engine]}">{text}</text>')
+    for size, _ in next(iter(curves.values())):
+        x = corner[0] + across * (math.log(size) - x0)
+        parts.append(f'<text x="{x:.1f}" y="{corner[1] + HEIGHT - 1.5 * MARGIN:.1f}" text-anchor="middle">{short(size)}</text>')
+    return parts
+
+
+def short(value: float) -> str:
+    """A number in few letters."""
+    for by, unit in ((1e6, " M"), (1e3, " k")):
+        if value >= 10 * by or (value >= by and value % by == 0.0):
+            return f"{value / by:.3g}{unit}"
+    return f"{value:,.0f}" if value >= 100.0 else f"{value:.3g}"
 
 
 if __name__ == "__main__":
