@@ -54,6 +54,7 @@ mod snapshot;
 mod spectrum;
 mod stage;
 mod sunlight;
+mod vector;
 mod verdict;
 mod view;
 mod view_out;

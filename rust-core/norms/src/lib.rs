@@ -10,7 +10,9 @@ pub mod emergency;
 mod lit;
 mod outline;
 mod plan;
+mod spacing;
 pub mod sports;
+mod vector;
 pub mod zones;
 
 pub use lit::{Reading, Spot};

@@ -6,12 +6,14 @@ use serde::de::DeserializeOwned;
 /// The most points of a route or an area.
 const MOST_POINTS: f64 = 200_000.0;
 
-/// Reads a plan whose fields are known.
+/// Reads a plan whose fields are known, and checks it.
 ///
 /// # Errors
-/// What is no such TOML, with its line.
-pub(crate) fn read<T: DeserializeOwned>(text: &str) -> Result<T, FormatError> {
-    toml::from_str(text).map_err(|error| told(text, &error))
+/// What is no such TOML, with its line; what the check says.
+pub(crate) fn read<T: DeserializeOwned>(text: &str, check: impl Fn(&T) -> Result<(), String>) -> Result<T, FormatError> {
+    let plan = toml::from_str(text).map_err(|error| told(text, &error))?;
+    check(&plan).map_err(FormatError::whole)?;
+    Ok(plan)
 }
 
 /// What TOML says of a file, with its line.
@@ -38,8 +40,4 @@ pub(crate) fn few(points: f64) -> Result<(), String> {
 /// What soiling and ageing leave, where a plan says nothing of it; the whole flux.
 pub(crate) fn one() -> f64 {
     1.0
-}
-
-pub(crate) fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
 }

@@ -1,5 +1,6 @@
 //! Floors of rooms by the surfaces and grids that a stage has.
 
+use crate::vector::{Vector, cross, dot, minus, plus};
 use gonio::{
     Error, Result,
     scene::{GridArea, Mesh, Origin, Scene, Transform},
@@ -10,8 +11,6 @@ use std::collections::{BTreeMap, HashMap};
 const LEVEL: f64 = 0.99;
 /// Metres within which triangles lie at one height, and two corners are one.
 const SAME: f64 = 1e-3;
-
-type Vector = [f64; 3];
 
 /// Corners of the floor that a grid or a surface of this name covers, or of the end of its path.
 ///
@@ -134,20 +133,4 @@ fn normal([a, b, c]: &[Vector; 3]) -> Option<Vector> {
     let normal = cross(minus(*b, *a), minus(*c, *a));
     let length = dot(normal, normal).sqrt();
     (length > 0.0).then(|| normal.map(|part| part / length))
-}
-
-fn plus(a: Vector, b: Vector) -> Vector {
-    std::array::from_fn(|k| a[k] + b[k])
-}
-
-fn minus(a: Vector, b: Vector) -> Vector {
-    std::array::from_fn(|k| a[k] - b[k])
-}
-
-fn dot(a: Vector, b: Vector) -> f64 {
-    (0..3).map(|k| a[k] * b[k]).sum()
-}
-
-fn cross(a: Vector, b: Vector) -> Vector {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

@@ -1,6 +1,9 @@
 //! The file that says where people flee, and what the lamps still give.
 
-use crate::plan::{distance, few, one, read, within};
+use crate::{
+    plan::{few, one, read, within},
+    vector::distance,
+};
 use gonio_formats::FormatError;
 use serde::Deserialize;
 
@@ -103,9 +106,7 @@ impl Plan {
     /// # Errors
     /// What is no such TOML, with its line, numbers out of their range, a plan without anything to measure.
     pub fn read(text: &str) -> Result<Self, FormatError> {
-        let plan: Self = read(text)?;
-        plan.check().map_err(FormatError::whole)?;
-        Ok(plan)
+        read(text, Self::check)
     }
 
     /// Degrees from straight down, from which to which luminaires are looked at: where nothing is said all where a route rises, else 60 to 90.

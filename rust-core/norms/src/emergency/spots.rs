@@ -4,7 +4,7 @@ use super::plan::{Area, Plan, Route};
 use crate::{
     Spot,
     outline::{edge_distance, is_inside},
-    plan::distance,
+    vector::{cross, distance, minus},
 };
 
 /// Parts of the central band's width across which points lie, from its middle.
@@ -55,8 +55,7 @@ impl Route {
 
 /// The level direction across a way; none where it goes straight up.
 fn across(from: [f64; 3], to: [f64; 3], up: [f64; 3]) -> [f64; 3] {
-    let way: [f64; 3] = std::array::from_fn(|k| to[k] - from[k]);
-    let side = [up[1] * way[2] - up[2] * way[1], up[2] * way[0] - up[0] * way[2], up[0] * way[1] - up[1] * way[0]];
+    let side = cross(up, minus(to, from));
     let length = distance(side, [0.0; 3]);
     if length > 0.0 { side.map(|part| part / length) } else { [0.0; 3] }
 }

@@ -1,6 +1,9 @@
 //! The file that says where people play, and who watches.
 
-use crate::plan::{distance, few, one, read, within};
+use crate::{
+    plan::{few, one, read, within},
+    vector::distance,
+};
 use gonio_formats::FormatError;
 use serde::Deserialize;
 
@@ -119,9 +122,7 @@ impl Plan {
     /// # Errors
     /// What is no such TOML, with its line, numbers out of their range, names of fields that are not there.
     pub fn read(text: &str) -> Result<Self, FormatError> {
-        let plan: Self = read(text)?;
-        plan.check().map_err(FormatError::whole)?;
-        Ok(plan)
+        read(text, Self::check)
     }
 
     fn check(&self) -> Result<(), String> {

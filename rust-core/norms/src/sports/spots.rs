@@ -1,10 +1,11 @@
 //! Where light is measured, and from where glare is rated.
 
 use super::plan::{Camera, EYES, Field, Plan};
-use crate::{Spot, plan::distance};
-
-/// Metres that points are apart at most (EN 12193).
-const FARTHEST: f64 = 10.0;
+use crate::{
+    Spot,
+    spacing::side_and_spacing,
+    vector::{cross, dot, minus, plus, unit},
+};
 
 impl Field {
     /// Points along and across. Without a wish as EN 12193 has it: about p = 0.2 · 5^log₁₀ d apart, d the longer side, or the shorter where the longer has
@@ -14,10 +15,8 @@ impl Field {
             return points;
         }
         let sides = self.sides();
-        let (longer, shorter) = (sides[0].max(sides[1]), sides[0].min(sides[1]));
-        let d = if longer >= 2.0 * shorter { shorter } else { longer };
+        let [d, spacing] = side_and_spacing(sides);
         let nearest_odd = |quotient: f64| 2 * ((quotient - 1.0) / 2.0).round().max(0.0) as u32 + 1;
-        let spacing = (0.2 * 5.0_f64.powf(d.log10())).min(FARTHEST);
         let spacing = d / f64::from(nearest_odd(d / spacing));
         sides.map(|side| nearest_odd(side / spacing))
     }
@@ -42,7 +41,7 @@ impl Camera {
     /// The normal of the plane at a point that faces it; straight up below a camera.
     fn normal(&self, point: [f64; 3], up: [f64; 3]) -> [f64; 3] {
         let way = match (self.position, self.facing) {
-            (Some(place), _) => std::array::from_fn(|k| place[k] - point[k]),
+            (Some(place), _) => minus(place, point),
             (None, facing) => facing.unwrap_or(up),
         };
         unit(if self.inclined { way } else { levelled(way, up) }).unwrap_or(up)
@@ -72,7 +71,7 @@ impl Plan {
     /// Directions in which eyes look, unit: all around from the first field's side, so many degrees above the horizon.
     pub(crate) fn looks(&self, up: [f64; 3]) -> Vec<(f64, [f64; 3])> {
         let ahead = unit(levelled(self.fields[0].along, up)).unwrap_or([up[1], up[2], up[0]]);
-        let side = [up[1] * ahead[2] - up[2] * ahead[1], up[2] * ahead[0] - up[0] * ahead[2], up[0] * ahead[1] - up[1] * ahead[0]];
+        let side = cross(up, ahead);
         let (rise, level) = self.tilt_deg.to_radians().sin_cos();
         let look = |number: usize| {
             let degrees = self.step_deg * number as f64;
@@ -85,12 +84,5 @@ impl Plan {
 
 /// What of a way lies across the way up.
 fn levelled(way: [f64; 3], up: [f64; 3]) -> [f64; 3] {
-    let rise: f64 = (0..3).map(|k| way[k] * up[k]).sum();
-    std::array::from_fn(|k| way[k] - rise * up[k])
-}
-
-/// A way of length 1; none of one that has hardly any.
-fn unit(way: [f64; 3]) -> Option<[f64; 3]> {
-    let length = distance(way, [0.0; 3]);
-    (length > 1e-9).then(|| way.map(|part| part / length))
+    plus(way, up, -dot(way, up))
 }

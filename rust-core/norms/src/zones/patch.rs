@@ -3,7 +3,8 @@
 use crate::{
     Spot,
     outline::{edge_distance, extent, is_inside},
-    plan::distance,
+    spacing::side_and_spacing,
+    vector::{cross, distance, dot, minus, plus, unit},
 };
 
 /// Metres before a plane at which its light is measured: desks and walls may lie in it.
@@ -12,8 +13,6 @@ const BEFORE: f64 = 0.005;
 const FLAT: f64 = 0.01;
 /// Part of a length within which two places count as one.
 const SLACK: f64 = 1e-9;
-/// Metres that points are apart at most (EN 12464-1).
-const FARTHEST: f64 = 10.0;
 
 /// Cells of a raster, those that count.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -160,33 +159,8 @@ impl Patch {
     }
 }
 
-/// Metres from point to point by EN 12464-1: d over the whole number next to d / p with p = 0.2 · 5^log₁₀ d, at most 10, where d is the longer side, or the
-/// shorter where the longer has twice its length.
+/// Metres from point to point by EN 12464-1: d over the whole number next to d / p.
 pub(crate) fn usual_spacing(sides: [f64; 2]) -> f64 {
-    let (longer, shorter) = (sides[0].max(sides[1]), sides[0].min(sides[1]));
-    let d = if longer >= 2.0 * shorter { shorter } else { longer };
-    let most = (0.2 * 5.0_f64.powf(d.log10())).min(FARTHEST);
+    let [d, most] = side_and_spacing(sides);
     d / (d / most).round().max(1.0)
-}
-
-fn plus(a: [f64; 3], b: [f64; 3], times: f64) -> [f64; 3] {
-    std::array::from_fn(|k| a[k] + times * b[k])
-}
-
-fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    plus(a, b, -1.0)
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|k| a[k] * b[k]).sum()
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-/// A way of length 1; none of one that has hardly any.
-fn unit(way: [f64; 3]) -> Option<[f64; 3]> {
-    let length = distance(way, [0.0; 3]);
-    (length > SLACK && length.is_finite()).then(|| way.map(|part| part / length))
 }

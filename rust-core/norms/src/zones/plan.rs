@@ -85,9 +85,7 @@ impl Plan {
     /// # Errors
     /// What is no such TOML, with its line, numbers out of their range, outlines that are not flat, names of rooms that are not there.
     pub fn read(text: &str) -> Result<Self, FormatError> {
-        let plan: Self = read(text)?;
-        plan.check().map_err(FormatError::whole)?;
-        Ok(plan)
+        read(text, Self::check)
     }
 
     /// The same with floors for the surfaces that rooms name.

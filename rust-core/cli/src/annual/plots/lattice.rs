@@ -1,6 +1,6 @@
 //! Points that say nothing of rows but lie in some, such as the sensors of a model.
 
-type Vector = [f64; 3];
+use crate::vector::{Vector, cross, dot, minus};
 
 /// Share of a spacing by which points may lie off their places.
 const OFF: f64 = 0.01;
@@ -56,18 +56,6 @@ fn numbered(along: &[f64]) -> Option<(usize, Vec<usize>)> {
         let numbers: Vec<usize> = places.iter().map(|place| place.round() as usize).collect();
         (numbers.iter().max().map_or(0, |most| most + 1), numbers)
     })
-}
-
-fn minus(a: Vector, b: Vector) -> Vector {
-    std::array::from_fn(|k| a[k] - b[k])
-}
-
-fn dot(a: Vector, b: Vector) -> f64 {
-    (0..3).map(|k| a[k] * b[k]).sum()
-}
-
-fn cross(a: Vector, b: Vector) -> Vector {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 #[cfg(test)]
