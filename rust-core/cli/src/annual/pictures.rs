@@ -1,10 +1,9 @@
 //! A grid's year in pictures: figures on the plan, and the mean of the points over days and hours.
 
-use super::plots::Layout;
+use super::plots::Cells;
 use crate::falsecolor;
 use gonio::{
     Result,
-    annual::AnnualGrid,
     output::{Canvas, FalseColour, FalseColourScale},
 };
 use gonio_annual::{Grid, Point, Year};
@@ -48,23 +47,13 @@ pub(super) fn paths(folder: &Path, name: &str) -> Vec<PathBuf> {
     plans.chain(["year"]).map(|ending| folder.join(format!("{name}_{ending}.png"))).collect()
 }
 
-/// Draws a grid whose points lie as a layout says, or in the rows that were traced; `means` are those of all points by step.
-pub(super) fn draw(
-    folder: &Path,
-    name: &str,
-    (grid, layout, traced): (&Grid, Option<&Layout>, &AnnualGrid),
-    year: &Year,
-    means: &[f32],
-) -> Result<Vec<PathBuf>> {
+/// Draws a grid whose points have their places in cells; `means` are those of all points by step.
+pub(super) fn draw(folder: &Path, name: &str, (grid, places): (&Grid, &Cells), year: &Year, means: &[f32]) -> Result<Vec<PathBuf>> {
     let paths = paths(folder, name);
     for (drawn, path) in DRAWN.iter().zip(&paths) {
         let of_points: Vec<Option<f64>> = grid.points.iter().map(drawn.of).collect();
-        let (spread, size) = match layout {
-            Some(layout) => (layout.spread(&of_points), layout.size),
-            None => (traced.spread(&of_points), traced.size),
-        };
-        let values: Vec<f32> = spread.iter().map(|value| value.map_or(f32::NAN, |value| value as f32)).collect();
-        let (pixels, size) = cells(&values, size);
+        let values: Vec<f32> = places.spread(&of_points).iter().map(|value| value.map_or(f32::NAN, |value| value as f32)).collect();
+        let (pixels, size) = cells(&values, places.size);
         falsecolor::write(path, &style(drawn.max, &values, drawn.unit)?.draw(&pixels, size))?;
     }
     if let Some(path) = paths.last() {

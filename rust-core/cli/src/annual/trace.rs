@@ -6,7 +6,7 @@ use super::{
     farm,
     inputs::{self, Inputs, Named},
     kept_path, pictures,
-    plots::{self, Layout},
+    plots::{self, Cells, Layout},
     series, settings, tell_doubts, tell_whole, text, whole,
 };
 use crate::{
@@ -138,16 +138,17 @@ fn finish(
     for (named, traced) in inputs.grids.iter().zip(grids) {
         let (grid, series) = calculate(&options.year, inputs, named, &settings, interrupted)?;
         let layout = Layout::of(traced);
+        let cells = Cells::of(traced, layout.as_ref());
         draw(&options.year, &inputs.year, (&named.name, &grid, layout.as_ref()), series.as_ref())?;
         if let (Some(folder), Some(series)) = (&options.year.output, series) {
-            let written = pictures::draw(folder, &named.name, (&grid, layout.as_ref(), traced), &inputs.year, &series.means())?;
+            let written = pictures::draw(folder, &named.name, (&grid, &cells), &inputs.year, &series.means())?;
             written.iter().filter(|_| !options.year.json).for_each(|path| print_path(path));
         }
         if !options.year.json {
             let closed = text::closed(facades, &grid.closed_hours);
             text::lines(&named.name, &grid, &options.metrics).iter().chain(&closed).for_each(|line| print(line));
         }
-        let mut json = placed(as_json(named, &grid), traced, layout.as_ref());
+        let mut json = placed(as_json(named, &grid), &traced.positions, &cells);
         if !options.facades.group.is_empty() {
             json["groups"] = json!(facades);
         }
@@ -160,10 +161,10 @@ fn finish(
 }
 
 /// A grid with the places of its points.
-fn placed(mut grid: Value, traced: &AnnualGrid, layout: Option<&Layout>) -> Value {
-    for (point, position) in grid["points"].as_array_mut().into_iter().flatten().zip(&traced.positions) {
+fn placed(mut grid: Value, positions: &[[f64; 3]], cells: &Cells) -> Value {
+    for (point, position) in grid["points"].as_array_mut().into_iter().flatten().zip(positions) {
         point["position_m"] = json!(position);
     }
-    Layout::tell(&mut grid, traced, layout);
+    cells.tell(&mut grid);
     grid
 }

@@ -90,12 +90,6 @@ impl AnnualGrid {
         }
     }
 
-    /// A value for each place in the rows, of those for each point.
-    pub fn spread<T: Copy>(&self, values: &[Option<T>]) -> Vec<Option<T>> {
-        let mut next = values.iter();
-        self.is_there.iter().map(|is_there| is_there.then(|| next.next().copied().flatten()).flatten()).collect()
-    }
-
     fn add(&mut self, meter: &Meter) {
         self.size[0] += 1;
         self.is_there.push(true);

@@ -8,14 +8,42 @@ use std::collections::HashMap;
 /// Share by which distances of neighbours may differ from each other.
 const EVEN: f64 = 0.01;
 
-/// Cells of a grid, seen from above, and which of them hold its points.
+/// Columns and rows of a grid, seen from above, and the cell of each point, row by row.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Cells {
+    pub(crate) size: [usize; 2],
+    of_points: Vec<usize>,
+}
+
+/// The cells of a grid whose points lie evenly.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Layout {
-    pub(crate) size: [usize; 2],
+    pub(crate) cells: Cells,
     /// Width and depth of a cell, m.
     pub(crate) spacing: [f64; 2],
-    /// By point its cell, row by row.
-    pub(crate) cells: Vec<usize>,
+}
+
+impl Cells {
+    /// Of a traced grid: those of its layout, else the rows that were traced.
+    pub(crate) fn of(grid: &AnnualGrid, layout: Option<&Layout>) -> Self {
+        let rows = || Self { size: grid.size, of_points: filled(&grid.is_there) };
+        layout.map_or_else(rows, |layout| layout.cells.clone())
+    }
+
+    /// A value for each cell, of those for each point.
+    pub(crate) fn spread(&self, values: &[Option<f64>]) -> Vec<Option<f64>> {
+        let mut found = vec![None; self.size[0] * self.size[1]];
+        self.of_points.iter().zip(values).for_each(|(cell, value)| found[*cell] = *value);
+        found
+    }
+
+    /// Tells a grid as JSON where its points lie.
+    pub(crate) fn tell(&self, grid: &mut Value) {
+        (grid["columns"], grid["rows"]) = (json!(self.size[0]), json!(self.size[1]));
+        if self.of_points.len() < self.size[0] * self.size[1] || self.of_points.iter().enumerate().any(|(place, cell)| place != *cell) {
+            grid["cells"] = json!(self.of_points);
+        }
+    }
 }
 
 impl Layout {
@@ -33,7 +61,7 @@ impl Layout {
             (along, 0.0) => [along; 2],
             (along, across) => [along, across],
         };
-        Some(Self { size, spacing, cells })
+        Some(Self { cells: Cells { size, of_points: cells }, spacing })
     }
 
     /// Of a traced grid; of meters that lie in rows.
@@ -44,15 +72,6 @@ impl Layout {
         })
     }
 
-    /// Tells a grid as JSON where its points lie.
-    pub(crate) fn tell(grid: &mut Value, traced: &AnnualGrid, layout: Option<&Self>) {
-        let (size, cells) = layout.map_or_else(|| (traced.size, filled(&traced.is_there)), |layout| (layout.size, layout.cells.clone()));
-        (grid["columns"], grid["rows"]) = (json!(size[0]), json!(size[1]));
-        if cells.len() < size[0] * size[1] || cells.iter().enumerate().any(|(place, cell)| place != *cell) {
-            grid["cells"] = json!(cells);
-        }
-    }
-
     /// Of a grid as JSON.
     pub(crate) fn read(grid: &Value) -> Option<Self> {
         let count = |key: &str| grid[key].as_u64().and_then(|count| usize::try_from(count).ok());
@@ -61,13 +80,6 @@ impl Layout {
         let positions: Vec<[f64; 3]> = points.iter().map(place).collect::<Option<_>>()?;
         let cells = serde_json::from_value(grid["cells"].clone()).unwrap_or_else(|_| (0..points.len()).collect());
         Self::new([count("columns")?, count("rows")?], cells, &positions)
-    }
-
-    /// A value for each cell, of those for each point.
-    pub(crate) fn spread(&self, values: &[Option<f64>]) -> Vec<Option<f64>> {
-        let mut found = vec![None; self.size[0] * self.size[1]];
-        self.cells.iter().zip(values).for_each(|(cell, value)| found[*cell] = *value);
-        found
     }
 }
 
@@ -114,7 +126,7 @@ mod tests {
         let positions = places([3, 2], [1.0, 1.0]);
         let some: Vec<[f64; 3]> = [0, 1, 5].map(|cell: usize| positions[cell]).into();
         let layout = Layout::new([3, 2], filled(&[true, true, false, false, false, true]), &some).expect("even points");
-        assert_eq!(layout.spread(&[Some(1.0), Some(2.0), Some(3.0)]), [Some(1.0), Some(2.0), None, None, None, Some(3.0)]);
+        assert_eq!(layout.cells.spread(&[Some(1.0), Some(2.0), Some(3.0)]), [Some(1.0), Some(2.0), None, None, None, Some(3.0)]);
     }
 
     #[test]

@@ -13,7 +13,7 @@ use gonio_page::{
     fill,
     plot::{Band, Bands, Carpet, Head, Map, Scale},
 };
-pub(crate) use layout::Layout;
+pub(crate) use layout::{Cells, Layout};
 use std::path::{Path, PathBuf};
 pub(crate) use times::Times;
 
@@ -99,9 +99,9 @@ impl Plots<'_> {
         Some(
             Map {
                 head: Head { title, lines },
-                size: layout.size,
+                size: layout.cells.size,
                 spacing: layout.spacing,
-                values: &layout.spread(&of_points),
+                values: &layout.cells.spread(&of_points),
                 scale: &Scale::new(figure.edges, is_open, figure.unit),
                 decimals: figure.decimals,
             }
