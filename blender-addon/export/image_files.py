@@ -20,15 +20,6 @@ def kind_of(head):
     return next((kind for start, kind in _SIGNATURES.items() if head.startswith(start)), None)
 
 
-def kind_of_file(path):
-    """As `kind_of`, of a file; None where it cannot be read."""
-    try:
-        with open(path, "rb") as file:
-            return kind_of(file.read(16))
-    except OSError:
-        return None
-
-
 def path_of(image, user=None, frame=None):
     """The absolute path of an image's file; of a sequence that of a scene's frame."""
     raw = image.filepath_raw

@@ -14,8 +14,9 @@ GREY, COLOURS, COLOURS_AND_ALPHA = 0, 2, 6
 
 
 class Header(NamedTuple):
-    """None where only Blender knows."""
+    """The file's format as `kind_of` has it, and what is in it; None where only Blender knows."""
 
+    kind: str | None = None
     is_float: bool | None = None
     has_alpha: bool | None = None
 
@@ -38,13 +39,14 @@ def header_of(file):
     """The header of an open file."""
     kind = kind_of(file.read(16))
     if kind == "PNG":
-        return _of_png(file)
+        return Header(kind, *_of_png(file))
     if kind == "JPEG":
-        return Header(False, False)
-    return Header(True) if kind in ("HDR", "OPEN_EXR") else Header()
+        return Header(kind, False, False)
+    return Header(kind, True if kind in ("HDR", "OPEN_EXR") else None)
 
 
 def _of_png(file):
+    """Whether it is of floats, and has alpha."""
     file.seek(SIGNATURE)
     parts = set()
     depth = pixels = None
@@ -53,7 +55,7 @@ def _of_png(file):
         if name == b"IHDR":
             content = file.read(length)
             if len(content) < 10:
-                return Header()
+                return None, None
             depth, pixels = content[8], content[9]
             length = 0
         parts.add(name)
@@ -62,5 +64,5 @@ def _of_png(file):
         file.seek(length + CHUNK_END, io.SEEK_CUR)
     # Blender makes floats of sixteen bits, and alpha of colours that are said to be transparent.
     if depth is None or depth > 8 or b"IDAT" not in parts:
-        return Header(False if depth is not None and depth <= 8 else None)
-    return Header(False, {GREY: False, COLOURS: False, COLOURS_AND_ALPHA: True}.get(pixels))
+        return False if depth is not None and depth <= 8 else None, None
+    return False, {GREY: False, COLOURS: False, COLOURS_AND_ALPHA: True}.get(pixels)

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..file_version import file_version
 from .colour_management import gonio_name, pixels_to_rec709, working_space
-from .image_files import bytes_of, frame_of, kind_of, kind_of_file, path_of, pixels_of, pixels_of_file, pixels_of_frame, png_of
+from .image_files import bytes_of, frame_of, path_of, pixels_of, pixels_of_file, pixels_of_frame, png_of
 from .image_header import Header, header_of_bytes, header_of_file
 
 # File formats that keep colours multiplied by alpha.
@@ -120,13 +120,23 @@ class Images:
         """What the head of an image's file says."""
         if image.source != "FILE" or image.is_dirty:
             return Header()
-        packed, path = image.packed_file, path_of(image)
+        if image.packed_file is not None:
+            return self._header_of_packed(image)
         try:
-            key = (path, *file_version(path)) if packed is None else (image.session_uid, packed.size)
+            return self._header_of_file(path_of(image))
         except OSError:
             return Header()
+
+    def _header_of_file(self, path):
+        key = (path, *file_version(path))
         if key not in self._headers:
-            self._headers[key] = header_of_file(path) if packed is None else header_of_bytes(packed.data)
+            self._headers[key] = header_of_file(path)
+        return self._headers[key]
+
+    def _header_of_packed(self, image):
+        key = (image.session_uid, image.packed_file.size)
+        if key not in self._headers:
+            self._headers[key] = header_of_bytes(image.packed_file.data)
         return self._headers[key]
 
     def stores_premultiplied(self, image):
@@ -174,7 +184,7 @@ class Images:
         if not path or not os.path.isfile(path):
             report.add("Image", image.name, f"the file '{path or image.filepath}' was not found", severity="ERROR")
             return None, None
-        kind = kind_of_file(path)
+        kind = self._header_of_file(path).kind
         if kind is None or not is_known:
             return self._pixels(image, report)
         self._kinds[image.session_uid] = kind
@@ -187,14 +197,12 @@ class Images:
 
     def _packed(self, image, report):
         packed = image.packed_file
-        key = ("packed", image.session_uid, packed.size)
-        if key not in self._kinds:
-            self._kinds[key] = kind_of(bytes(packed.data[:16]))
-        if self._kinds[key] is None:
+        kind = self._header_of_packed(image).kind
+        if kind is None:
             return self._pixels(image, report)
-        self._kinds[image.session_uid] = self._kinds[key]
-        name = image.filepath or f"{image.name}.{self._kinds[key].lower()}"
-        return key, lambda: ({}, {"data": (os.path.basename(name), bytes(packed.data))})
+        self._kinds[image.session_uid] = kind
+        name = image.filepath or f"{image.name}.{kind.lower()}"
+        return ("packed", image.session_uid, packed.size), lambda: ({}, {"data": (os.path.basename(name), bytes(packed.data))})
 
     def _tiled(self, image, report):
         if image.is_dirty:
