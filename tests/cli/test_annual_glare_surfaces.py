@@ -6,22 +6,9 @@ import facade_room
 import numpy as np
 import pytest
 from test_annual_glare import dgp, even_sky, stage, weather, year
+from test_annual_trace import MATTE
 from wea_years import HOUR, write_wea
 
-MATTE = """def Material "Matte"
-{
-    token outputs:surface.connect = </Matte/S.outputs:surface>
-    def Shader "S"
-    {
-        uniform token info:id = "UsdPreviewSurface"
-        color3f inputs:diffuseColor = (0.5, 0.5, 0.5)
-        float inputs:roughness = 1
-        int inputs:useSpecularWorkflow = 1
-        color3f inputs:specularColor = (0, 0, 0)
-        token outputs:surface
-    }
-}
-"""
 WALL = """def Mesh "Wall" (prepend apiSchemas = ["MaterialBindingAPI"])
 {
     point3f[] points = [(-5000, 1, -5000), (5000, 1, -5000), (5000, 1, 5000), (-5000, 1, 5000)]
